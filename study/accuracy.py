@@ -8,6 +8,7 @@ Coarse runs, in each of which one thing is coarser than in the others, tell whic
 settings for the error asked for follow, and whether their run changes the values as was foretold checks it.
 """
 import argparse
+import json
 import os
 import re
 import subprocess
@@ -35,6 +36,7 @@ def report(search):
             for (knob, factor), size, part in zip(parts, search.parts(), level.model.parts)]
     expected = search.expected_error()
     cancels = f" ({percent(expected)} if parts cancel each other as they seem to)" if expected < 0.8 * search.error else ""
+    half, is_enough = search.cost_of_half()
     lines = ["", f"error of '{pilot.quantity.name}' ({pilot.quantity.evaluate}): about {percent(search.error)}{cancels}, "
              f"{percent(search.wanted)} were asked for; the truth may be a factor of two and more away from an estimate",
              *table(["what", "value", "part of the error", "order"], rows)]
@@ -42,7 +44,7 @@ def report(search):
     lines += [f"note: '{key}' has a single cell along an axis in all runs: what that does to the error is not known"
               for knob, factor in parts for key in knob.single_cells(factor)]
     lines += [f"this run: {pilot.costs[setting]:.3g} core s; {count} others before: {others:.3g} core s",
-              f"half of the error would take about {search.cost_of(search.error / 2):.3g} core s"]
+              f"half of the error would take {'about' if is_enough else 'more than'} {half:.3g} core s"]
     return "\n".join(lines)
 
 
@@ -80,6 +82,18 @@ def arguments(words):
     return parser.parse_args(words)
 
 
+def refuse_folder(folder):
+    """Before anything is run for it: a run that has not come to its end is not replaced unless that is asked for."""
+    try:
+        with open(os.path.join(folder, "summary.json")) as file:
+            has_ended = json.load(file).get("ended")
+    except (OSError, ValueError):
+        has_ended = False
+    if os.path.exists(os.path.join(folder, "checkpoint")) and not has_ended:
+        sys.exit(f"Error: '{folder}' holds a run that has not reached its end. It can go on by './undine resume {folder}'. To begin "
+                 "anew, choose another folder with --output, or replace that run with --overwrite")
+
+
 def main(words):
     options = arguments(words)
     found = knobs.parameters(options.program, options.scene, options.assignments)
@@ -96,18 +110,24 @@ def main(words):
         sys.exit("Error: nothing of this scene can be refined: no time passes, and its elements come from files of meshes")
     deadline = time.monotonic() + options.within if options.within else None
     output = options.output or found["Output/Directory"]
+    if not options.overwrite:
+        refuse_folder(output)
     with tempfile.TemporaryDirectory() as folder:
         pilot = Pilot(options.program, study, lambda columns: quantity_of(options.of or default_column(columns),
                                                                           options.measure, columns), folder, deadline)
         known = earlier.load(pilot, all_knobs, found, same_probes=not options.of)
         if known:
             print(f"{known} runs of earlier studies of this scene in '{earlier.FOLDER}' are used", file=sys.stderr)
-        tries = []
+        tries, under_way = [], []
 
         def run_with_outputs(setting):
-            tries.append(setting)
             words = [options.program, options.scene, "--output", output, *runs.assignments(written)]
-            return pilot.run_with_outputs(setting, words + ["--overwrite"] * (options.overwrite or len(tries) > 1), output)
+            words += ["--overwrite"] * (options.overwrite or bool(tries))
+            tries.append(setting)
+            under_way.append(setting)
+            found = pilot.run_with_outputs(setting, words, output)
+            under_way.pop()
+            return found
 
         try:
             search = Search(pilot, all_knobs, options.accuracy, run_with_outputs)
@@ -116,8 +136,8 @@ def main(words):
             left = f" What is in '{output}' is less accurate." if tries else ""
             sys.exit(f"\nError: an error of {percent(options.accuracy)} was not reached: {reason}.{left}")
         except KeyboardInterrupt:
-            print(f"\nstopped; './undine resume {output}' goes on with the run that was under way" if tries else
-                  "\nstopped before the run", file=sys.stderr)
+            print("\nstopped; " + (f"'./undine resume {output}' goes on with the run that was under way" if under_way else
+                                   f"what is in '{output}' is less accurate" if tries else "there is no result yet"), file=sys.stderr)
             sys.exit(130)
         print(report(search))
         print(f"results: {output}")

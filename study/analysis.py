@@ -56,8 +56,13 @@ class Analysis:
     def __init__(self, program, study, results, folders):
         self.study, self.results, self.folders = study, results, folders
         self.quantities, self.unevaluated = [], {}
-        data = {case: self.read(folders[case]) for case in sorted(results, key=lambda case: case.index)
-                if not results[case]["failure"]}
+        data = {}
+        for case in sorted(results, key=lambda case: case.index):
+            if not results[case]["failure"]:
+                try:
+                    data[case] = self.read(folders[case])
+                except columns.NotEvaluated as reason:
+                    results[case] = {**results[case], "failure": str(reason)}
         for quantity in study.quantities:
             try:
                 self.quantities.append(self.analyse(program, quantity, data))
@@ -126,13 +131,12 @@ class Analysis:
         return chosen
 
     def keeps(self, result, case, level):
-        """Whether a case and all finer ones of its variant are that accurate: errors that cancel by chance do not
+        """Whether a case and all finer ones of its variant are known to be that accurate: errors that cancel by chance do not
         count."""
         refinements = self.study.refinements()
         finer = [other for other in result.errors if variant(self.study, other) == variant(self.study, case)
                  and all(other.index[axis] >= case.index[axis] for axis in refinements)]
-        return (not result.made_reference(case) and result.errors[case] + result.uncertainty() <= level and
-                all(result.errors[other] <= level for other in finer))
+        return not result.made_reference(case) and all(result.errors[other] + result.uncertainty() <= level for other in finer)
 
     def advice(self, result):
         """For each level of the study."""

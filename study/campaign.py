@@ -24,13 +24,13 @@ def of_file(program, file, folder, jobs, within=None):
     """The study of a file, and the results and folders of its cases, of which those are run that are not there."""
     study = description.read(program, file)
     campaign = Campaign(program, study, make_cases(study), folder, jobs, within)
-    with only_one(campaign.parent):
+    with only_one(folder):
         return study, campaign.carry_out(), campaign.folders
 
 
 @contextlib.contextmanager
 def only_one(folder):
-    """Two calls at once must not write into one folder."""
+    """Two calls at once must not write into the folder of a study or a map."""
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, ".lock"), "w") as lock:
         try:
@@ -90,10 +90,10 @@ class Campaign:
         if self.results[case]["failure"] or self.has_warned:
             return
         self.has_warned = True
-        data = columns.read(os.path.join(self.folders[case], "statistics"))
         for quantity in self.study.quantities:
             try:
-                quantities.evaluate(quantity.in_case(case.settings(self.study)), data)
+                quantities.evaluate(quantity.in_case(case.settings(self.study)),
+                                    columns.read(os.path.join(self.folders[case], "statistics")))
             except columns.NotEvaluated as reason:
                 self.say(f"study: '{quantity.name}' cannot be evaluated from this run: {reason}")
 

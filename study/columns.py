@@ -24,8 +24,11 @@ def parse(text):
 def read(path):
     """{name: values of all rows} of a file `statistics`."""
     import numpy  # checks that only parse do without it
-    with open(path) as file:
-        names, _, rows = parse(file.read())
+    try:
+        with open(path) as file:
+            names, _, rows = parse(file.read())
+    except (OSError, ValueError) as error:
+        raise NotEvaluated(f"'{path}' cannot be read: {error}") from error
     if any(len(row) != len(names) for row in rows):
         raise NotEvaluated(f"'{path}' has rows of other lengths than its header")
     return dict(zip(names, numpy.array(rows).T))

@@ -9,6 +9,7 @@ import numpy
 LARGEST_ORDER = 4  # a greater one is chance
 SMALLEST_ORDER = 0.5  # with a smaller one, the limit is far from all that was computed
 ALIGNED = 0.5  # of two differences, for one to be foretold by the other
+DOUBLED = 2.0  # a ratio of lengths
 SURE, UNSURE = 1.25, 3.0  # factors of safety: the order is seen twice, or once
 
 
@@ -79,23 +80,24 @@ def limit(lengths, values):
     finest = values[-1]
     if len(values) < 2:
         return Limit(finest, math.inf, math.nan, "was not refined")
-    last = norm(values[-1] - values[-2])
+    last, ratio = norm(values[-1] - values[-2]), lengths[-2] / lengths[-1]
     if last == 0:
-        return Limit(finest, 0.0, math.nan, "")
+        moved = max((norm(value - finest) for value in values[:-2]), default=0.0)
+        return Limit(finest, UNSURE * moved, math.nan, "ends in values that are the same" if moved else "")
+    cautious = UNSURE * last / (min(ratio, DOUBLED) - 1)  # first order from one step to the next, be it a large one
     if len(values) < 3:
-        ratio = lengths[-2] / lengths[-1]
-        return Limit(finest, UNSURE * last / (ratio - 1), math.nan, "has two values only: no order is known")
+        return Limit(finest, cautious, math.nan, "has two values only: no order is known")
     p = observed_order(lengths, values)
     if math.isnan(p):
         largest = max(last, norm(values[-2] - values[-3]))
         return Limit(finest, UNSURE * largest, math.nan,
                      "goes up and down" if alignment(values) < -ALIGNED else "does not come closer")
-    used = min(max(p, SMALLEST_ORDER), LARGEST_ORDER)
-    share = 1 / ((lengths[-2] / lengths[-1]) ** used - 1)
+    if p > LARGEST_ORDER:
+        return Limit(finest, cautious, p, f"comes closer with an order above {LARGEST_ORDER}, which is chance")
+    share = 1 / (ratio ** max(p, SMALLEST_ORDER) - 1)
     seen_twice = len(values) > 3 and abs(observed_order(lengths[:-1], values[:-1]) - p) < 0.5
     slow = p < SMALLEST_ORDER
     leads_on = alignment(values) > ALIGNED
-    is_chance = p > LARGEST_ORDER
-    factor = SURE if seen_twice and leads_on and not slow and not is_chance else UNSURE
+    factor = SURE if seen_twice and leads_on and not slow else UNSURE
     return Limit(finest + share * (values[-1] - values[-2]) if leads_on else finest, factor * share * last, p,
                  "converges slowly" if slow else "")

@@ -184,6 +184,13 @@ def quantity(name, section, folder):
         truth(text("Rate", "false")), float(text("Rate over", "0")))
 
 
+def check_time_of_end(quantity):
+    """The value at the end belongs to another time with each step where it is taken within a step."""
+    if quantity.evaluate == "end" and quantity.share_of_step < 1 and not quantity.until:
+        raise ValueError(f"'{quantity.name}': 'Evaluate = end' with 'Share of step' below 1 would compare values of different "
+                         "times: give 'Until', a time before the last step of all runs")
+
+
 def check_own_keys(study):
     """What the program cannot check, since it knows neither cases nor which keys are the study's own; ends the program."""
     allowed = {f"{QUANTITIES}{each.name}/{key}" for each in study.quantities for key in VARIABLE}
@@ -196,7 +203,7 @@ def check_own_keys(study):
             if int(own.get(RANKS, 1)) < 1:
                 raise ValueError(f"'{RANKS} = {own[RANKS]}' must be at least 1")
             for each in study.quantities:
-                each.in_case(own)
+                check_time_of_end(each.in_case(own))
         except ValueError as error:
             sys.exit(f"Error: {study.file}: 'Settings' of {', '.join(settings)}: {error}")
 

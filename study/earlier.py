@@ -58,10 +58,13 @@ def load(pilot, all_knobs, scene, folder=FOLDER, same_probes=False):
     the columns of the first decide what the quantity is."""
     digest, found = runs.digest_of_file(pilot.program), 0
     for path in sorted(glob.glob(os.path.join(folder, "*", "cases", "*", "result.json"))):
-        with open(path) as file:
-            result = json.load(file)
-        settings, case = of_scene(result.get("settings", {})), os.path.dirname(path)
-        kept = Kept(tuple(result.get("settings", {}).items()))
+        try:
+            with open(path) as file:
+                result = {"failure": "", "settings": {}, **json.load(file)}
+        except (OSError, TypeError, ValueError):
+            continue  # of a study that was stopped hard, or of another kind of program
+        settings, case = of_scene(result["settings"]), os.path.dirname(path)
+        kept = Kept(tuple(result["settings"].items()))
         if result["failure"] or not all(settings.values()) or os.path.basename(case) != runs.identity(
                 pilot.study, kept, digest):
             continue

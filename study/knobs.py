@@ -137,6 +137,8 @@ def knobs_of(found):
     """All that the parameters of a scene have, by name."""
     dimension = int(found["Dimension"])
     if found["Scheme"] == "particle":
+        print("note: sub-steps of particles follow from their spacing, which is refined; where 'Time/Step' bounds them, that is not "
+              "looked at", file=sys.stderr)
         return [spacing(found, dimension)]
     result = []
     if found.get("Time/Integrator") != "static":

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What part of the error of a setting comes from what, by runs that are coarser in one thing."""
 import math
+from dataclasses import replace
 
 from study import convergence
 from study.error_model import ErrorModel, Part
@@ -12,6 +13,7 @@ UNSEEN_ORDER = 1.5  # a prudent one, where none has been seen
 APART = 1.4  # factor between two settings that can tell an order
 LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of smaller ones
 SMALLEST_GROWTH = 0.3  # of cost; less is seen of runs that are too short to tell
+STEEPEST_GROWTH = 1.5  # in growths expected
 ALIKE_ORDERS = 0.3  # largest difference
 ALIKE = 0.6  # of a change, what may not have been foretold
 
@@ -71,7 +73,7 @@ class Level:
         """That of one knob, by values of settings that are coarser and coarser in it, in sizes of the quantity."""
         knob, factors = self.setting.knobs[k], [each.factors[k] for each in chain]
         ratio, difference = factors[0] / factors[1], convergence.norm(values[1] - values[0])
-        before = self.before.model.parts[k] if self.before else None
+        before = self.part_before(k)
         seen = order_between(before, difference, ratio, factors[0]) if before else None
         if seen is None and len(chain) > 2 and difference > 0:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
@@ -80,15 +82,27 @@ class Level:
         return Part(values[1] - values[0], ratio, factors[0], order, knob.order,
                     self.growth(chain, ratio, before, knob), knob.growth, seen, falls)
 
+    def part_before(self, k):
+        """That of an earlier level, in sizes that the quantity has with the setting of this one; None without any."""
+        if not self.before:
+            return None
+        part = self.before.model.parts[k]
+        return replace(part, difference=part.difference * (self.before.scale / self.scale))
+
     def growth(self, chain, ratio, before, knob):
         """Of the cost; outputs hide it."""
         if self.setting in self.pilot.have_outputs:
             return before.growth if before else knob.growth
         seen = math.log(self.pilot.costs[chain[0]] / self.pilot.costs[chain[1]]) / math.log(ratio)
-        return min(max(seen, SMALLEST_GROWTH), knob.growth)
+        return min(max(seen, SMALLEST_GROWTH), STEEPEST_GROWTH * knob.growth)
 
     def error(self):
+        """Relative."""
         return self.model.error(self.setting.factors)
+
+    def size_of_error(self):
+        """In the unit of the quantity, which tells whether it falls from level to level: sizes of the quantity differ."""
+        return self.scale * self.error()
 
     def orders_are_seen(self):
         return all(part.seen is not None for part in self.model.parts)

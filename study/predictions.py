@@ -4,8 +4,20 @@ import math
 
 import numpy
 
-GROWTH = 2.0  # a priori: seconds over the inverse of a length, of cells in the plane
+from study.description import numbers
+
+GROWTH = 2.0  # a priori: seconds over the inverse of a length, of cells or elements in the plane
+PARTICLES_GROWTH = 3.0  # of spacings there, with which sub-steps fall
 STRENGTH = 0.05  # of what is assumed against what was seen
+
+
+def assumed_growth(settings):
+    """Exponent of seconds over the inverse of a length, by what is refined with it: tolerances cost next to nothing."""
+    cells = [float(len(numbers(text))) for key, text in settings.items() if key.endswith("/Cells")]
+    others = [GROWTH for key in settings if key.startswith("Domain/Planes") or "mesh" in key.lower()]
+    steps = [1.0 for key in settings if key in ("Time/Step", "Particles/Sub-steps/Largest")]
+    spacings = [PARTICLES_GROWTH for key in settings if key == "Particles/Spacing"]
+    return max(cells + others, default=0.0) + max(steps, default=0.0) * (not spacings) + max(spacings, default=0.0)
 
 
 class Predictions:
@@ -28,8 +40,7 @@ class Predictions:
         result = [0.0]
         for variation in self.study.variations:
             if variation.lengths:
-                is_step = any(key.startswith("Time/") for key in variation.settings[0])
-                result.append(1.0 if is_step else GROWTH if variation.is_refinement() else 0.0)
+                result.append(assumed_growth(variation.settings[0]) if variation.is_refinement() else 0.0)
             else:
                 result += [0.0] * len(variation.names)
         return numpy.array(result)

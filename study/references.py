@@ -134,8 +134,14 @@ def by_finest(study, values):
     """From the runs themselves: of the variant whose limit is surest."""
     found = [(limit_of_all(study, values, base), key) for key, base in base_cases(study, values).items()]
     limit, key = min(found, key=lambda each: each[0].rank())
-    return Reference(limit.value, limit.uncertainty, f"limit of the finest runs ({variant_name(study, key)})",
-                     limit.warnings)
+    uncertainty, warnings = limit.uncertainty, list(limit.warnings)
+    for other, other_key in found:
+        apart = convergence.norm(other.value - limit.value)
+        if other.unmoved <= limit.unmoved and apart > limit.uncertainty + other.uncertainty:
+            uncertainty = max(uncertainty, apart)
+            warnings.append(f"runs with {variant_name(study, other_key)} lead elsewhere, by {apart:.3g}, than they should by both "
+                            "uncertainties")
+    return Reference(limit.value, uncertainty, f"limit of the finest runs ({variant_name(study, key)})", warnings)
 
 
 def common_times(evaluated):

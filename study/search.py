@@ -156,10 +156,16 @@ class Search:
                 zip(model.parts, self.setting.factors)]
 
     def cost_of(self, wanted):
-        """Core seconds that an error would take, no coarser than the last setting."""
+        """Core seconds that an error by the model of the last level would take, or that of the finest settings looked at where
+        none are fine enough, and whether some are: as costs grow from those of the last run."""
         level = self.levels[-1]
-        factors = cheapest(level, level.model, wanted)
-        return self.pilot.costs[level.setting] * float(level.model.cost(factors))
+        factors, last = cheapest(level, level.model, wanted), self.setting or level.setting
+        cost = self.pilot.costs[last] * float(level.model.cost(factors) / level.model.cost(last.factors))
+        return cost, level.model.error(factors) <= wanted
+
+    def cost_of_half(self):
+        """The same for half of the error of the last setting, in which more may have been seen than the model foretold."""
+        return self.cost_of(self.levels[-1].model.error(self.setting.factors) / 2)
 
     def refuse_what_takes_too_long(self, setting):
         """Where the next run does not fit into the time, or, once values come closer, the last one."""
@@ -167,7 +173,7 @@ class Search:
             return
         left, level = self.pilot.deadline - time.monotonic(), self.levels[-1]
         next_cost = self.pilot.costs[level.setting] * float(level.model.cost(setting.factors))
-        whole = self.cost_of(AIM * self.wanted)
+        whole, _ = self.cost_of(AIM * self.wanted)
         is_sure = level.orders_are_seen() and not level.remarks
         if next_cost > left or (is_sure and whole > left):
             raise Refused(f"it would take about {readable(max(whole, next_cost))}, but {readable(max(left, 0))} of the time "
@@ -181,7 +187,7 @@ class Search:
             ratios = [fine / coarse for fine, coarse in zip(late.setting.factors, early.setting.factors)]
             is_finer = min(ratios) > 0.99 and all(ratio > HOPELESS for ratio, part in zip(ratios, early.model.parts)
                                                   if part.size > MATTERS * early.error())
-            if is_finer and late.error() > 0.8 * early.error():
+            if is_finer and late.size_of_error() > 0.8 * early.size_of_error():
                 errors = ", ".join(percent(each.error()) for each in self.levels)
                 raise Refused("runs do not come closer to each other as they are refined: the estimates are "
                               f"{errors}. Flows that are chaotic have no accurate values over time: ask for a mean with "

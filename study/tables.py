@@ -209,11 +209,13 @@ def records(found):
         cells = {variation.name: name for variation, name in zip(found.study.variations, settings(found, case))}
         for result in found.quantities:
             if result.is_scalar():
-                cells[result.quantity.name] = result.values[case].flat[0] if case in result.values else ""
+                unit = f" [{result.quantity.unit}]" if result.quantity.unit else ""
+                cells[result.quantity.name + unit] = result.values[case].flat[0] if case in result.values else ""
             known = case in result.errors and not result.made_reference(case)
             cells[f"error of {result.quantity.name}"] = result.errors[case] if known else ""
-        cells.update({f"run: {key}": outcome.get(key, "") for key in (
-            "core seconds", "wall seconds", "memory", "unknowns", "steps", "Newton iterations", "linear iterations")})
+        cells.update({f"run: {key}{unit}": outcome.get(key, "") for key, unit in (
+            ("core seconds", ""), ("wall seconds", ""), ("memory", " [B]"), ("unknowns", ""), ("steps", ""),
+            ("Newton iterations", ""), ("linear iterations", ""))})
         cells["failure"] = reason(outcome)
         rows.append(cells)
     return rows
@@ -259,8 +261,9 @@ def data_of(found):
         {"name": result.quantity.name, "orders": [
             {"refined": found.study.variations[axis].name, "from": base.settings(found.study), "own": finite(own),
              "of the error": finite(against)} for base, axis, own, against in found.orders(result)],
-         "budget": [{"refined": share.name, "moves by": finite(share.size), "remark": share.remark}
-                    for base in found.bases(result)[:1] for share in found.budget(result, base)],
+         "budget": [{"from": base.settings(found.study), "refined": share.name, "moves by": finite(share.size),
+                     "uncertain by": finite(share.uncertainty), "remark": share.remark}
+                    for base in found.bases(result) for share in found.budget(result, base)],
          "reference": result.reference.values.ravel().tolist(),
          "from": result.reference.source, "uncertainty": finite(result.uncertainty()), "warnings": result.reference.warnings,
          "advice": [{"error at most": each.level, "settings": each.case.settings(found.study),

@@ -24,7 +24,7 @@ from study.description import Quantity, Study, Variation, check_own_keys, flat, 
 from study.error_model import ErrorModel, Part  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of  # noqa: E402
 from study.pilot import Refused, quantity_of  # noqa: E402
-from study.search import Search  # noqa: E402
+from study.search import Search, cheapest  # noqa: E402
 
 
 def quantity(**keys):
@@ -63,7 +63,25 @@ class Convergence(unittest.TestCase):
         self.assertIn("does not come closer", unequal.remark)
         self.assertAlmostEqual(unequal.uncertainty, 3.0)
         chance = convergence.limit([1, 0.5, 0.25, 0.125], [numpy.array([[x]]) for x in (1.0, 1e-3, 1e-6, 1e-9)])
-        self.assertAlmostEqual(chance.uncertainty, 3 * (1e-6 - 1e-9) / (2 ** 4 - 1))
+        self.assertAlmostEqual(chance.uncertainty, 3 * (1e-6 - 1e-9), 12)
+
+    def test_the_truth_is_within_the_uncertainty_of_sequences_that_are_not_asymptotic_yet(self):
+        # Drag and lift of the cylinder of DFG 2D-1 with 10, 20 and 40 cells across; the limits are in tests/reference.
+        for values, truth in (((5.41379, 5.58084, 5.586), 5.57953), ((-0.256, 0.00936, 0.01010), 0.010619)):
+            found = convergence.limit([4, 2, 1], [numpy.array([[value]]) for value in values])
+            self.assertLessEqual(abs(found.value[0, 0] - truth), found.uncertainty)
+            self.assertIn("chance", found.remark)
+
+    def test_two_equal_values_after_others_are_not_sure(self):
+        found = convergence.limit([4, 2, 1], [numpy.array([[value]]) for value in (1, 1.2, 1.2)])
+        self.assertGreaterEqual(found.uncertainty, 0.2)
+        self.assertIn("the same", found.remark)
+
+    def test_two_values_with_a_large_ratio_assume_no_more_than_others(self):
+        for order in (0.67, 1, 2):
+            values = [numpy.array([[1 + tolerance ** order]]) for tolerance in (1e-2, 1e-4)]
+            found = convergence.limit([1e-2, 1e-4], values)
+            self.assertLessEqual(abs(found.value[0, 0] - 1), found.uncertainty)
 
     def test_sequences_that_do_not_converge_are_named(self):
         away = convergence.limit([1, 0.5, 0.25], [numpy.array([[x]]) for x in (1.0, 1.1, 1.3)])
@@ -296,6 +314,22 @@ class Cases(unittest.TestCase):
             known.add(case, {"failure": "", "elapsed": seconds(case)})
         self.assertLess(abs(math.log(known.wall_seconds(cases[-1]) / seconds(cases[-1]))), 0.2)
 
+    def test_predictions_after_one_run_know_what_is_refined(self):
+        lengths = [4, 2, 1]
+
+        def ratio(*keys):
+            """Of the seconds of two lengths of which one is half of the other."""
+            paths = Variation("h", "refinement", ["a", "b", "c"], [dict(keys) for _ in lengths], lengths)
+            known = predictions.Predictions(study(paths))
+            cases = make_cases(known.study)
+            known.add(cases[0], {"failure": "", "elapsed": 0.3})
+            return known.wall_seconds(cases[1]) / known.wall_seconds(cases[0])
+
+        for keys, expected in (([("Coupling/Tolerance", "1e-6")], 1), ([("Time/Step", "0.1")], 2), ([("Domain/Cells", "8, 8")], 4),
+                               ([("Domain/Cells", "8, 8, 8"), ("Bodies/a/Cells", "2, 2, 2")], 8),
+                               ([("Domain/Cells", "8, 8"), ("Time/Step", "0.1")], 8), ([("Particles/Spacing", "0.1")], 8)):
+            self.assertAlmostEqual(ratio(*keys), expected, 6)
+
 
 class Repetitions(unittest.TestCase):
     def test_all_times_are_those_of_the_repetition_of_median_cost(self):
@@ -323,7 +357,8 @@ class Repetitions(unittest.TestCase):
 class FakePilot:
     """Runs whose errors are powers of the factors, of a value over time, and which cost what is expected."""
 
-    def __init__(self, sizes, orders, deadline=None, noise=0.0):
+    def __init__(self, sizes, orders, deadline=None, noise=0.0, steep=1.0):
+        self.steep = steep  # factor of the exponents of cost
         self.sizes, self.orders, self.deadline, self.noise = sizes, orders, deadline, noise
         self.times_of_rows, self.values, self.costs, self.failures = numpy.linspace(0, 1, 11), {}, {}, {}
         self.study, self.quantity = study(), quantity(evaluate="over time")
@@ -339,7 +374,7 @@ class FakePilot:
         return parts + self.noise * numpy.cos(100 * sum(setting.factors) * self.times_of_rows)
 
     def run(self, setting):
-        self.costs[setting] = math.prod(factor ** knob.growth for knob, factor in zip(setting.knobs, setting.factors))
+        self.costs[setting] = math.prod(factor ** (self.steep * knob.growth) for knob, factor in zip(setting.knobs, setting.factors))
         self.values[setting] = quantities.Values(self.times_of_rows, (self.exact() + self.error(setting))[:, None])
         return self.values[setting]
 
@@ -385,6 +420,15 @@ class Results(unittest.TestCase):
         (result,) = self.analyse(value, variants, refinement("dt", [4, 2, 1])).quantities
         self.assertIn("own", result.reference.source)
         self.assertAlmostEqual(result.reference.values[0, 0], 1)
+
+    def test_a_reference_is_no_surer_than_variants_agree(self):
+        variants = Variation("kind", "variant", ["one", "other"], [{"k": "1"}, {"k": "2"}], [])
+        for limit in (1.3, 1.0):  # of the other one, whose values change less
+            value = lambda kind, i: (limit + 0.02 / 4 ** i if kind else 1 + 0.2 / 4 ** i)  # noqa: E731
+            (result,) = self.analyse(value, variants, refinement("h", [4, 2, 1])).quantities
+            self.assertEqual(any("lead elsewhere" in each for each in result.reference.warnings), limit != 1.0)
+            for truth in (1.0, limit):
+                self.assertLessEqual(abs(result.reference.values[0, 0] - truth), result.reference.uncertainty + 1e-12)
 
     def test_a_single_run_knows_nothing_of_its_error(self):
         found = self.analyse(lambda i: 1.0 + i, refinement("dt", [4, 2, 1]), missing=[(0,), (1,)])
@@ -522,6 +566,31 @@ class Accuracy(unittest.TestCase):
                 found = self.search(pilot, wanted)
                 self.assertLessEqual(pilot.true_error(found.setting), 1.1 * wanted)
                 self.assertLess(abs(math.log(found.error / pilot.true_error(found.setting))), math.log(2))
+
+    def test_orders_are_told_in_one_unit_although_the_size_of_the_quantity_changes(self):
+        for orders in ((1, 1), (2, 1)):
+            for wanted in (0.05, 0.01):
+                pilot = FakePilot((0.2, 0.3), orders)
+                found = self.search(pilot, wanted)  # is not refused
+                self.assertLessEqual(pilot.true_error(found.setting), 1.1 * wanted)
+                for level in found.levels[1:]:
+                    for part, order in zip(level.model.parts, orders):
+                        if part.seen is not None:
+                            self.assertAlmostEqual(part.seen, order, 6)
+
+    def test_what_half_of_the_error_would_take(self):
+        for steep in (0.8, 1.0, 1.4):
+            pilot = FakePilot((0.02, 0.03), (2, 2), steep=steep)
+            found = self.search(pilot, 0.01)
+            found.error *= 1.3  # more than the model has foretold was seen
+            cost, is_enough = found.cost_of_half()
+            self.assertTrue(is_enough)
+            factors = cheapest(found.levels[-1], found.levels[-1].model,
+                               found.levels[-1].model.error(found.setting.factors) / 2)
+            setting = dataclasses.replace(found.setting, factors=factors)
+            pilot.run(setting)
+            self.assertGreater(cost, pilot.costs[found.setting])
+            self.assertLess(abs(math.log(cost / pilot.costs[setting])), math.log(1.5))
 
     def test_runs_are_not_much_dearer_than_needed(self):
         for orders in ((2, 2), (1, 2), (2, 1.2)):
