@@ -104,7 +104,8 @@ namespace undine
           else if (!grid.at_boundary(axis, face) && is_fixed(below) && is_fixed(face))
             means(face) = (half(below) + half(face)) / 2;
           else
-            means(face) = mean_at(tracer, source, means.lattice().point(face), bounds.reached);
+            means(face) =
+              mean_at(tracer, source, means.lattice().point(face), bounds.reached_by_flow);
         });
       }
     exchange(result);

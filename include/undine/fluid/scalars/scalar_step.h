@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace undine
 {
@@ -26,12 +27,12 @@ namespace undine
   ///  - fluxes F_H of second order: of what comes to the faces (face_means()), near bodies of the
   ///    mean of both sides at the begin and of s_L at the end, and of diffusion by two stages of
   ///    Alexander's method with what these fluxes bring;
-  ///  - as much of their difference as bounds allow (FluxLimiter),
+  ///  - as much of their difference as bounds allow (FluxCorrection),
   ///
   ///        V s = V s_L - sum share h (F_H - F).                                          (F21)
   ///
-  /// Bounds are the values at the begin as far as the flow reaches in the stage, and those of s_L
-  /// next to a place. What leaves one cell or component enters another one.
+  /// Bounds are the values at the begin as far as flow and diffusion reach in the stage, and those
+  /// of s_L next to a place. What leaves one cell or component enters another one.
   template <int dim>
   class ScalarStep
   {
@@ -105,6 +106,8 @@ namespace undine
              const Field<dim>        &begin,
              const Velocity<dim>     &on_faces,
              const Field<dim>        &gains);
+    std::vector<double>
+    later_than_middle(const ScalarFluxes<dim> &fluxes) const;
     Field<dim>
     corrected(const ScalarFluxes<dim> &fluxes,
               const Low               &low,
