@@ -32,7 +32,7 @@ namespace undine
     , open(*parts.open)
     , placed(placed)
     , surfaces(surfaces)
-    , meetings(grid, cut, open, placed)
+    , meetings(grid, cut, parts, surfaces.shapes, placed)
   {
   }
 
@@ -41,13 +41,33 @@ namespace undine
   void
   WallContacts<dim>::add_of_faces(const unsigned int axis)
   {
-    const auto &owned = grid.faces(axis)->owned();
+    const auto &owned = grid.faces(axis)->owned(), &owned_cells = grid.cells()->owned();
     for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
       for (const unsigned int end : {0, 1})
-        if (owned.contains(moved<dim>(cut.cells[cell].index, axis, end)))
-          add_walls(axis, cell, end);
+        {
+          const auto &index = cut.cells[cell].index;
+          const auto  face  = moved<dim>(index, axis, end);
+          // Above the last cell is an image of the first face, which is below that one alone.
+          const bool is_image = end == 1 && grid.periodic(axis) &&
+                                face[axis] == static_cast<int>(grid.cells_along()[axis]);
+          if (is_image ? owned_cells.contains(index) : owned.contains(face))
+            add_walls(axis, cell, end);
+        }
     add_closed_openings(axis);
     add_passages(axis);
+  }
+
+
+  /// In the plane of a face.
+  template <int dim>
+  double
+  WallContacts<dim>::least_distance_at(const unsigned int axis, const GridIndex<dim> &face) const
+  {
+    double width = std::numeric_limits<double>::infinity();
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != axis)
+        width = std::min(width, grid.cell_width(d, face[d]));
+    return least_distance * width;
   }
 
 
@@ -58,15 +78,12 @@ namespace undine
                          const double          area,
                          const Meeting        &meeting)
   {
-    double width = std::numeric_limits<double>::infinity();
-    for (unsigned int d = 0; d < dim; ++d)
-      if (d != axis)
-        width = std::min(width, grid.cell_width(d, place.face[d]));
-    surfaces.contacts[axis].push_back({place,
-                                       area,
-                                       std::max(meeting.distance, least_distance * width),
-                                       placed.surface.facets()[meeting.spot.facet],
-                                       meeting.spot.weights});
+    surfaces.contacts[axis].push_back(
+      {place,
+       area,
+       std::max(meeting.distance, least_distance_at(axis, place.face)),
+       placed.surface.facets()[meeting.spot.facet],
+       meeting.spot.weights});
   }
 
 
@@ -92,14 +109,17 @@ namespace undine
           if (part < 0)
             continue;
           const View   view{axis, {face, part}, 1 - end};
-          auto         meeting = meetings.meeting(view, found, lines);
+          const auto   meeting = meetings.meeting(view, found, lines);
           const double own     = share_of(view, found, meeting) * area;
           const double beyond  = add_to_neighbour(view, found, area - own, screened);
           if (own > 0)
             add(axis, view.piece, own, meeting);
-          meeting.distance = std::max(meeting.distance, least_of_extensions(view, found));
           if (const double left = area - own - beyond; left > negligible_area * area)
-            add(axis, view.piece, left, meeting);
+            add(axis,
+                view.piece,
+                left,
+                {meetings.on_wall(found),
+                 std::max(meeting.distance, least_of_extensions(view, found))});
         }
   }
 
@@ -148,12 +168,12 @@ namespace undine
         return;
       const auto  &beyond  = *opening.neighbour;
       auto        &sum     = screened[{view.piece.part, beyond.face, beyond.part}];
-      const double part    = std::min(area - result, opening.area / projection - sum);
+      const double part    = std::min(area - result, (opening.area - sum) / projection);
       const auto   meeting = meetings.meeting({view.axis, beyond, view.half}, wall, {});
       if (!(part > 0) || !(meeting.distance > 0))
         return;
       result += part;
-      sum += part;
+      sum += projection * part;
       add(view.axis, beyond, part, meeting);
       surfaces.passages[view.axis].push_back(
         {{{view.piece, beyond}}, -projection * part, links.distance(view.piece, beyond, d)});
@@ -258,8 +278,8 @@ namespace undine
     const auto lines = meetings.chords(axis, piece.face);
     double     left  = opening.area;
     add_shares(view, left, walls, [&](const Wall &wall) {
-      const auto *line = meetings.chord_of(wall, lines, outward);
-      return line ? std::make_pair(wall.size, meetings.at_chord(view, *line))
+      const auto *line = meetings.chord_of(view, wall, lines, outward);
+      return line ? std::make_pair(wall.size, meetings.at_chord(view, *line, lines))
                   : std::make_pair(0., Meeting());
     });
     const auto closed = moved<dim>(piece.face, side.axis, side.sign());
@@ -371,8 +391,9 @@ namespace undine
         if (const double area = -(sum * offset) / distance; distance > 0 && area > 0)
           {
             const auto &face = all[pieces[k]].index;
-            surfaces.passages[axis].push_back(
-              {{{{face, pieces[k]}, {face, pieces[k + 1]}}}, area, distance});
+            surfaces.passages[axis].push_back({{{{face, pieces[k]}, {face, pieces[k + 1]}}},
+                                               area,
+                                               std::max(distance, least_distance_at(axis, face))});
           }
       }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/cutting/fragment_at_plane.h>
+#include <undine/operators/mean_distance.h>
 #include <undine/operators/wall_meetings.h>
 #include <undine/surface/nearest_in_simplex.h>
 #include <undine/surface/simplex.h>
@@ -81,11 +82,14 @@ namespace undine
   template <int dim>
   WallMeetings<dim>::WallMeetings(const MacGrid<dim>       &grid,
                                   const CutCells<dim>      &cut,
-                                  const FluidTopology<dim> &open,
+                                  const CutTopology<dim>   &parts,
+                                  const PieceShapes<dim>   &shapes,
                                   const PlacedSurface<dim> &placed)
     : grid(grid)
     , cut(cut)
-    , open(open)
+    , parts(parts)
+    , open(*parts.open)
+    , shapes(shapes)
     , placed(placed)
   {
   }
@@ -185,15 +189,18 @@ namespace undine
   }
 
 
-  /// The chord of a wall, or the nearest one of the smooth wall that it belongs to, which faces the
-  /// same side.
+  /// The chord of a wall, or the nearest one of the smooth wall of its body that it belongs to,
+  /// which faces the same side. One that a piece is not in front of bounds another piece.
   template <int dim>
   const typename WallMeetings<dim>::Chord *
-  WallMeetings<dim>::chord_of(const Wall                   &wall,
+  WallMeetings<dim>::chord_of(const View                   &view,
+                              const Wall                   &wall,
                               const std::vector<Chord>     &chords,
                               const dealii::Tensor<1, dim> &facing) const
   {
-    const auto   of_wall = unit_normal(cut.fragments[wall.fragment].facet);
+    const auto   facet   = cut.fragments[wall.fragment].facet;
+    const auto   of_wall = unit_normal(facet);
+    const auto   centre  = centroid(view.axis, view.piece);
     const Chord *result  = nullptr;
     double       least   = std::numeric_limits<double>::infinity();
     for (const auto &chord : chords)
@@ -201,8 +208,11 @@ namespace undine
         if (chord.fragment == wall.fragment)
           return &chord;
         const double distance = chord.chord.middle.distance(wall.centroid);
+        const auto   other    = cut.fragments[chord.fragment].facet;
         if (distance < least && chord.chord.normal * facing > 0 &&
-            unit_normal(cut.fragments[chord.fragment].facet) * of_wall >= smooth)
+            placed.surface.body(other) == placed.surface.body(facet) &&
+            unit_normal(other) * of_wall >= smooth &&
+            (chord.chord.middle - centre) * chord.chord.normal > 0)
           {
             least  = distance;
             result = &chord;
@@ -215,13 +225,49 @@ namespace undine
   /// The wall acts where it meets the plane.
   template <int dim>
   typename WallMeetings<dim>::Meeting
-  WallMeetings<dim>::at_chord(const View &view, const Chord &chord) const
+  WallMeetings<dim>::at_chord(const View               &view,
+                              const Chord              &chord,
+                              const std::vector<Chord> &chords) const
   {
-    const unsigned int facet  = cut.fragments[chord.fragment].facet;
-    const auto         normal = chord.chord.normal / chord.chord.normal.norm();
+    const unsigned int facet    = cut.fragments[chord.fragment].facet;
+    const auto         normal   = chord.chord.normal / chord.chord.normal.norm();
+    const auto         distance = mean_distance_in_front(chord.chord, boundary(view, chords));
     return {{facet, nearest_point(corners(facet), chord.chord.middle)},
-            (chord.chord.middle - centroid(view.axis, view.piece)) * normal,
+            distance.value_or((chord.chord.middle - centroid(view.axis, view.piece)) * normal),
             true};
+  }
+
+
+  /// Of a piece, if it is the only one that bounds its component: chords and rims.
+  template <int dim>
+  std::vector<PlaneChord<dim>>
+  WallMeetings<dim>::boundary(const View &view, const std::vector<Chord> &chords) const
+  {
+    const auto &[axis, piece, half] = view;
+    std::vector<PlaneChord<dim>> result;
+    const int component = piece.part < 0 ? -1 : open.pieces[axis][piece.part].components[half];
+    int       n_pieces  = 0;
+    for_each_part(open.faces[axis], piece.face, [&, half = half, axis = axis](const int part) {
+      n_pieces += open.pieces[axis][part].components[half] == component;
+    });
+    if (component < 0 || n_pieces != 1)
+      return result;
+    for (const auto &chord : chords)
+      if (parts.open_components[cut.fragments[chord.fragment].component] == component)
+        result.push_back(chord.chord);
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const unsigned int end : {0, 1})
+        if (const auto &rim = shapes[axis][piece.part].rims[2 * d + end]; rim.length > 0)
+          {
+            PlaneChord<dim> side;
+            for (unsigned int along = 0; along < dim; ++along)
+              side.middle[along] = rim.middle;
+            side.middle[axis] = plane(axis, piece.face);
+            side.middle[d]    = cut.block.planes().position(d, piece.face[d] + end);
+            side.normal[d]    = end == 0 ? -rim.length : rim.length;
+            result.push_back(side);
+          }
+    return result;
   }
 
 
@@ -270,7 +316,8 @@ namespace undine
         const auto   there    = place + (distance > width ? width / distance : 1.) * along;
         const auto   goes_on  = [&](const unsigned int facet) {
           const auto of_next = unit_normal(facet);
-          return of_next * of_facet >= smooth && facing * (of_next * normal) >= -rounding;
+          return placed.surface.body(facet) == placed.surface.body(result.facet) &&
+                 of_next * of_facet >= smooth && facing * (of_next * normal) >= -rounding;
         };
         const auto near = nearest_spot(there, beyond, view.axis, side, goes_on);
         if (!near)
@@ -291,8 +338,8 @@ namespace undine
                              const Wall               &wall,
                              const std::vector<Chord> &chords) const
   {
-    const auto *chord = chord_of(wall, chords, wall.area);
-    return chord ? at_chord(view, *chord)
+    const auto *chord = chord_of(view, wall, chords, wall.area);
+    return chord ? at_chord(view, *chord, chords)
                  : seen(view, wall.area / wall.area.norm(), extension(view, wall));
   }
 
@@ -319,7 +366,7 @@ namespace undine
             {
               // What only touches a plane is in one cell or the other by chance.
               if (!(cut.fragments[f].area_vector.norm() >
-                    negligible * cut.block.face_area(axis, face)))
+                    negligible * cut.block.face_area(axis, cell)))
                 continue;
               const unsigned int facet = cut.fragments[f].facet;
               if (counts && !counts(facet))

@@ -43,6 +43,8 @@ namespace undine
     /// By how much walls narrow openings [m^(dim-1)]: by the pieces before and behind it.
     using Screened = std::map<std::tuple<int, GridIndex<dim>, int>, double>;
 
+    double
+    least_distance_at(const unsigned int axis, const GridIndex<dim> &face) const;
     void
     add_walls(const unsigned int axis, const int cell, const unsigned int end);
     double

@@ -5,10 +5,13 @@
 #include <undine/cutting/cut_workspace.h>
 #include <undine/cutting/fragment_at_plane.h>
 #include <undine/fluid/boundary/boundary.h>
+#include <undine/fluid/boundary/no_slip_surfaces.h>
 #include <undine/fluid/grid/face_place.h>
 #include <undine/fluid/grid/fluid_topology.h>
 #include <undine/fluid/grid/mac_grid.h>
+#include <undine/operators/cut_topology.h>
 #include <undine/surface/facet_geometry.h>
+#include <undine/surface/nearest_in_simplex.h>
 
 #include <cmath>
 #include <functional>
@@ -63,8 +66,9 @@ namespace undine
     struct Meeting
     {
       Spot   spot;
-      double distance = 0; ///< from the piece's centroid in the plane, along the wall's normal [m]
-      bool   is_chord = false; ///< not an extension
+      double distance = 0; ///< from the piece's centroid in the plane, along the wall's normal, or
+                           ///< that of what is in front of a chord in the mean [m]
+      bool is_chord = false; ///< not an extension
     };
 
     /// From where walls are seen: a piece of a face normal to `axis`, below (0) or above (1) which
@@ -79,8 +83,17 @@ namespace undine
     /// The references must outlive it.
     WallMeetings(const MacGrid<dim>       &grid,
                  const CutCells<dim>      &cut,
-                 const FluidTopology<dim> &open,
+                 const CutTopology<dim>   &parts,
+                 const PieceShapes<dim>   &shapes,
                  const PlacedSurface<dim> &placed);
+
+    /// The place of a wall itself.
+    Spot
+    on_wall(const Wall &wall) const
+    {
+      const unsigned int facet = cut.fragments[wall.fragment].facet;
+      return {facet, nearest_point(corners(facet), wall.centroid)};
+    }
 
     /// What of a fragment is next to the face of its cell at `end`.
     Wall
@@ -90,16 +103,17 @@ namespace undine
     std::vector<Chord>
     chords(const unsigned int axis, const GridIndex<dim> &face) const;
 
-    /// The chord of a wall, or the nearest one of the smooth wall that it belongs to, which faces
-    /// the same side; nullptr if there is none.
+    /// The chord of a wall, or the nearest one of the smooth wall of its body that it belongs to,
+    /// which faces the same side and which the piece is in front of; nullptr if there is none.
     const Chord *
-    chord_of(const Wall                   &wall,
+    chord_of(const View                   &view,
+             const Wall                   &wall,
              const std::vector<Chord>     &chords,
              const dealii::Tensor<1, dim> &facing) const;
 
-    /// The wall acts where it meets the plane.
+    /// The wall acts where it meets the plane. `chords`: all on the face.
     Meeting
-    at_chord(const View &view, const Chord &chord) const;
+    at_chord(const View &view, const Chord &chord, const std::vector<Chord> &chords) const;
 
     /// Where a wall acts on a piece: at its chord, or where it would meet the plane.
     Meeting
@@ -123,6 +137,8 @@ namespace undine
     extension(const View &view, const Wall &wall) const;
     Meeting
     seen(const View &view, const dealii::Tensor<1, dim> &normal, const Spot &spot) const;
+    std::vector<PlaneChord<dim>>
+    boundary(const View &view, const std::vector<Chord> &chords) const;
     bool
     is_along_plane(const int facet, const unsigned int axis) const;
 
@@ -141,7 +157,9 @@ namespace undine
 
     const MacGrid<dim>       &grid;
     const CutCells<dim>      &cut;
+    const CutTopology<dim>   &parts;
     const FluidTopology<dim> &open;
+    const PieceShapes<dim>   &shapes;
     const PlacedSurface<dim> &placed;
   };
 } // namespace undine

@@ -68,13 +68,14 @@ namespace undine
       return centroid(axis, place);
     }
 
-    /// Of the centroids of two pieces along `d`, at least a hundredth of the width of the cell:
+    /// Of the centroids of two pieces along `d`, at least a hundredth of the narrower cell:
     /// what is nearer moves along anyway, and the equations keep their condition [m].
     double
     distance(const FacePlace<dim> &a, const FacePlace<dim> &b, const unsigned int d) const
     {
       return std::max(std::abs(centroid(b)[d] - centroid(a)[d]),
-                      least_share * grid.cell_width(d, a.face[d]));
+                      least_share *
+                        std::min(grid.cell_width(d, a.face[d]), grid.cell_width(d, b.face[d])));
     }
 
     /// Where the side of a face is, along its normal [m].

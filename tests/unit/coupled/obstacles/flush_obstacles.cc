@@ -143,6 +143,52 @@ namespace
   }
 
 
+  /// That along the stream on a box two or five cells wide of which sides, edges and corners go
+  /// through a cell.
+  template <int dim>
+  double
+  force_on_passing_box(const double shift)
+  {
+    const auto corner = [&](const double x, const double y) {
+      const auto others = fmt::format(", {:.17g}", y + shift);
+      return fmt::format("{:.17g}{}", x + shift, others) + (dim == 2 ? "" : others);
+    };
+    ObstacleRun<dim> run(
+      section("Domain",
+              plane_or_space<dim>("set Upper corner = 2, 1", "set Upper corner = 2, 1, 1")) +
+        stream_to_the_right<dim>(plane_or_space<dim>("32, 16", "16, 8, 8"), 1, 1),
+      obstacle("box",
+               "box",
+               "set Lower corner = " + corner(.55, .28) +
+                 "\nset Upper corner = " + corner(.85, .65)),
+      viscosity(.1),
+      .03);
+    for (unsigned int n = 0; n < 20; ++n)
+      run.step();
+    return run.column("pressure force box x") + run.column("viscous force box x");
+  }
+
+
+  template <int dim>
+  void
+  check_passing()
+  {
+    constexpr int n_places = 12;
+    const double  width    = 1. / (dim == 2 ? 16 : 8);
+    double        least = std::numeric_limits<double>::max(), most = 0;
+    std::string   all;
+    for (int k = 0; k < n_places; ++k)
+      {
+        const double force = force_on_passing_box<dim>(k * width / n_places);
+        all += fmt::format(" {:.4f}", force);
+        least = std::min(least, force);
+        most  = std::max(most, force);
+      }
+    INFO(dim << "D:" << all);
+    CHECK(most - least <= (dim == 2 ? .03 : .07) * most);
+  }
+
+
   template <int dim>
   void
   check_filled()
@@ -220,6 +266,19 @@ TEST_CASE("The force on a box is continuous as its sides leave planes of the gri
   SECTION("3D")
   {
     check_leaving<3>();
+  }
+}
+
+
+TEST_CASE("The force on a box hardly changes as it goes through a cell askew", "[coupled][mpi]")
+{
+  SECTION("2D")
+  {
+    check_passing<2>();
+  }
+  SECTION("3D")
+  {
+    check_passing<3>();
   }
 }
 

@@ -141,6 +141,51 @@ namespace
       }
     CHECK(impulse > 100);
   }
+
+
+  /// The force of friction on a box past which fluid flows along x, `cells` of the width 1/8 from
+  /// where it has a quarter of a cell to the periodic side.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  friction_on_box(const int cells)
+  {
+    const auto corner = [&](const double x, const std::string &others) {
+      return fmt::format("{:.17g}{}", x - cells / 8., others);
+    };
+    ObstacleRun<dim> run(
+      section("Domain",
+              plane_or_space<dim>("set Upper corner = 2, 1\nset Cells = 16, 8",
+                                  "set Upper corner = 2, 1, 1\nset Cells = 16, 8, 8")) +
+        section(
+          "Fluid",
+          "set Density = 1\nset Initial velocity = " + plane_or_space<dim>("1; 0", "1; 0; 0") +
+            "\n" + section("Pressure solver", "set Divergence tolerance = 1e-13") +
+            section("Boundaries", boundary("round", "left, right", "periodic"))),
+      obstacle("thing",
+               "box",
+               "set Lower corner = " + corner(.91, plane_or_space<dim>(", .33", ", .33, .29")) +
+                 "\nset Upper corner = " +
+                 corner(2 - .25 / 8, plane_or_space<dim>(", .68", ", .68, .73"))),
+      viscosity(.1),
+      .04);
+    for (unsigned int n = 0; n < 4; ++n)
+      run.step();
+    return run.column_vector("viscous force thing");
+  }
+
+
+  template <int dim>
+  void
+  check_friction_beside_a_side()
+  {
+    const auto beside = friction_on_box<dim>(0);
+    for (const int cells : {1, 4, 7})
+      {
+        const auto middle = friction_on_box<dim>(cells);
+        INFO(cells << " cells off: " << middle << ", beside the side: " << beside);
+        CHECK((middle - beside).norm() <= 1e-8 * beside.norm());
+      }
+  }
 } // namespace
 
 
@@ -180,5 +225,18 @@ TEST_CASE("It makes no difference where an obstacle swings in a periodic domain"
   {
     check_shift<3>(-5, "cubic");
     check_shift<3>(4, "MacCormack");
+  }
+}
+
+
+TEST_CASE("Friction on a body next to a periodic side is that anywhere else", "[coupled][mpi]")
+{
+  SECTION("2D")
+  {
+    check_friction_beside_a_side<2>();
+  }
+  SECTION("3D")
+  {
+    check_friction_beside_a_side<3>();
   }
 }
