@@ -161,6 +161,8 @@ namespace undine
     void
     advect(const std::vector<Velocity<dim> *> &velocities, FluidStage<dim> &step) const
     {
+      // An advected share of the acceleration is taken away again: what enters has it.
+      const bool has_rate = step.stage.going_on() != 0;
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
           std::vector<Field<dim>> components;
@@ -172,7 +174,13 @@ namespace undine
             }
           step.timing.memory.hold_briefly(this->name, memory);
           components =
-            method->advect(step.tracer, std::move(components), VelocityCondition<dim>(axis));
+            method->advect(step.tracer,
+                           std::move(components),
+                           step.stage.keeps_rates()
+                             ? step.going_on(velocities.size(),
+                                             has_rate ? &step.state.acceleration[axis] : nullptr)
+                             : GoingOn<dim>(),
+                           VelocityCondition<dim>(axis));
           for (std::size_t k = 0; k < components.size(); ++k)
             (*velocities[k])[axis] = std::move(components[k]);
         }

@@ -245,7 +245,13 @@ namespace undine
                 step.state.scalar_rates.at(field->name));
           step.timing.memory.hold_briefly(
             this->name, fields_to_advect.size() * fields_to_advect.front().memory_consumption());
-          auto advected = method->advect(step.tracer, std::move(fields_to_advect), *field);
+          const bool goes_on = field->changes() && step.stage.going_on() != 0;
+          const auto going_on =
+            goes_on
+              ? step.going_on(fields_to_advect.size(), &step.state.scalar_rates.at(field->name))
+              : GoingOn<dim>{std::vector<double>(fields_to_advect.size(), step.time)};
+          auto advected =
+            method->advect(step.tracer, std::move(fields_to_advect), going_on, *field);
           if (!field->changes())
             {
               values = std::move(advected.front());

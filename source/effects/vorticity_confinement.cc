@@ -122,7 +122,8 @@ namespace undine
     static Fields
     centre_velocities(const FluidStage<dim> &step)
     {
-      auto velocity = step.state.velocity;
+      // In stages the velocity before forces act is a whole stage of them off.
+      auto velocity = step.stage.keeps_rates() ? step.flow_at_end() : step.state.velocity;
       exchange(velocity);
       Fields      result(dim + 1, Field<dim>(step.model.grid().cells()));
       const auto *open = velocity.topology();

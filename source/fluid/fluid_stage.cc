@@ -66,7 +66,12 @@ namespace undine
     , end(time_ + stage.end)
     , dt(stage.length)
     , timing(timing_)
-    , tracer(model_, advecting_velocity(state_, stage), time, stage.duration(), bodies)
+    , tracer(model_,
+             advecting_velocity(state_, stage),
+             time,
+             stage.duration(),
+             bodies,
+             stage.keeps_rates() ? time + stage.duration() / 2 : time)
   {
     if (stage.keeps_rates())
       go_on();

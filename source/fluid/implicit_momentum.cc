@@ -139,10 +139,13 @@ namespace undine
       step.state.pressure = remapped(step.tracer, *step.pressure_before, PressureCondition<dim>());
     auto pressure = step.state.pressure;
     pressure.exchange(1);
-    const auto gradient = pressure_acceleration(
-      step.model,
-      pressure,
-      open_faces(step.model, step.tracer.velocity(), velocity.topology(), step.time));
+    const auto gradient =
+      pressure_acceleration(step.model,
+                            pressure,
+                            open_faces(step.model,
+                                       step.tracer.velocity(),
+                                       velocity.topology(),
+                                       step.state.pressure_time.value_or(step.time)));
     add(velocity, step.dt, gradient);
     set_boundary_velocity(velocity, step.model.boundaries(), step.end);
     if (step.tracer.bodies().walls || (step.carrying && !relax(step)))

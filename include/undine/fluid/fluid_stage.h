@@ -4,6 +4,7 @@
 
 #include <undine/base/core/stage.h>
 #include <undine/base/core/timing.h>
+#include <undine/fluid/advection/advection.h>
 #include <undine/fluid/advection/characteristic_tracer.h>
 #include <undine/fluid/convection/dual_fluxes.h>
 #include <undine/fluid/grid/fluid_state.h>
@@ -121,6 +122,14 @@ namespace undine
     keeps_mean() const
     {
       return stage.kept == KeptRate::mean && stage.going_on() != 0;
+    }
+
+    /// Of fields that advection takes along: one that has gone on with the rate that was kept,
+    /// which may be nullptr, and, of two, what it was at the begin of the stage.
+    GoingOn<dim>
+    going_on(const std::size_t n_fields, const Field<dim> *rate) const
+    {
+      return {n_fields == 1 ? std::vector<double>{start} : std::vector<double>{start, time}, rate};
     }
 
     /// What the velocity at the begin of the stage has been advected to [m/s]; nullptr unless a

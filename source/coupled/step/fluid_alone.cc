@@ -3,6 +3,7 @@
 #include <undine/coupled/step/work_on_fluid.h>
 
 #include <optional>
+#include <utility>
 
 namespace undine
 {
@@ -29,9 +30,32 @@ namespace undine
   }
 
 
+  /// The first stage of a run with friction is solved twice: friction has to know the pressure,
+  /// which holds what may act from the start, or it slows down what the pressure will not let flow.
   template <int dim>
   void
   FluidAlone<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
+  {
+    if (stage.is_first && state.clock.step == 0 && models.has_friction())
+      {
+        State<dim> begin         = state;
+        Report     report_before = report;
+        const auto budget_before = budget;
+        solve_once(state, stage, report);
+        begin.fluid.pressure            = state.fluid.pressure;
+        begin.fluid.pressure_time       = state.clock.time + stage.end;
+        report_before.linear_iterations = report.linear_iterations;
+        state                           = std::move(begin);
+        report                          = std::move(report_before);
+        budget.go_back_to(budget_before);
+      }
+    solve_once(state, stage, report);
+  }
+
+
+  template <int dim>
+  void
+  FluidAlone<dim>::solve_once(State<dim> &state, const Stage &stage, Report &report)
   {
     const auto timed = timing.section("fluid");
     budget.begin_stage(stage);

@@ -20,11 +20,11 @@ namespace undine
   Field<dim>
   completed(const CharacteristicTracer<dim> &tracer,
             Field<dim>                       field,
+            const double                     time,
             const BoundaryCondition<dim>    &condition)
   {
     field.exchange(tracer.width());
-    fill_boundary_points(
-      field, tracer.model().boundaries(), condition, tracer.velocity(), tracer.time());
+    fill_boundary_points(field, tracer.model().boundaries(), condition, tracer.velocity(), time);
     return field;
   }
 
@@ -33,11 +33,70 @@ namespace undine
   std::vector<Field<dim>>
   completed(const CharacteristicTracer<dim> &tracer,
             std::vector<Field<dim>>          fields,
+            const GoingOn<dim>              &going_on,
             const BoundaryCondition<dim>    &condition)
   {
-    for (auto &field : fields)
-      field = completed(tracer, std::move(field), condition);
+    std::optional<Field<dim>> rate;
+    if (going_on.rate && tracer.model().boundaries().lets_fluid_pass())
+      {
+        rate = *going_on.rate;
+        rate->exchange(tracer.width());
+      }
+    for (std::size_t k = 0; k < fields.size(); ++k)
+      {
+        const double time = going_on.times.empty() ? tracer.time() : going_on.times[k];
+        fields[k].exchange(tracer.width());
+        fill_boundary_points(fields[k],
+                             tracer.model().boundaries(),
+                             condition,
+                             tracer.velocity(),
+                             time,
+                             {tracer.time(), rate ? &*rate : nullptr, time - tracer.time()});
+      }
     return fields;
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  entering_value(const CharacteristicTracer<dim>                 &tracer,
+                 const typename CharacteristicTracer<dim>::Trace &trace,
+                 const Field<dim>                                &field,
+                 const BoundaryCondition<dim>                    &condition,
+                 const double                                     time)
+  {
+    const auto &place    = trace.foot.point;
+    const auto &boundary = tracer.model().boundaries().at(trace.side, place);
+    if (condition.is_dirichlet(boundary))
+      return condition.dirichlet_value(boundary, trace.side.axis, place, time);
+    // How fast fluid comes in through an opening is for the pressure to say.
+    if (boundary.is_open() && field.lattice().normal_axis() != trace.side.axis)
+      return condition.entering_value(place, time);
+    return {};
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  values_since_entry(const CharacteristicTracer<dim>                 &tracer,
+                     const typename CharacteristicTracer<dim>::Trace &trace,
+                     const std::vector<Field<dim>>                   &sources,
+                     const GoingOn<dim>                              &going_on,
+                     const BoundaryCondition<dim>                    &condition,
+                     const GridIndex<dim>                            &index)
+  {
+    if (!trace.left_domain || going_on.times.empty())
+      return {};
+    const double end = tracer.time() + tracer.dt();
+    const auto   entered =
+      entering_value(tracer, trace, sources.front(), condition, end - trace.inside);
+    if (!entered)
+      return {};
+    std::vector<double> result(sources.size(), *entered);
+    if (going_on.rate)
+      for (std::size_t k = 0; k < result.size(); ++k)
+        result[k] += (trace.inside - (end - going_on.times[k])) * (*going_on.rate)(index);
+    return result;
   }
 
 
@@ -167,14 +226,26 @@ namespace undine
   }
 
 
-  template class NearBodies<2>;
-  template class NearBodies<3>;
-  template Field<2>
-  completed(const CharacteristicTracer<2> &, Field<2>, const BoundaryCondition<2> &);
-  template std::vector<Field<2>>
-  completed(const CharacteristicTracer<2> &, std::vector<Field<2>>, const BoundaryCondition<2> &);
-  template Field<3>
-  completed(const CharacteristicTracer<3> &, Field<3>, const BoundaryCondition<3> &);
-  template std::vector<Field<3>>
-  completed(const CharacteristicTracer<3> &, std::vector<Field<3>>, const BoundaryCondition<3> &);
+#define INSTANTIATE(dim)                                                                          \
+  template class NearBodies<dim>;                                                                 \
+  template Field<dim> completed(                                                                  \
+    const CharacteristicTracer<dim> &, Field<dim>, const double, const BoundaryCondition<dim> &); \
+  template std::vector<Field<dim>> completed(const CharacteristicTracer<dim> &,                   \
+                                             std::vector<Field<dim>>,                             \
+                                             const GoingOn<dim> &,                                \
+                                             const BoundaryCondition<dim> &);                     \
+  template std::optional<double>   entering_value(const CharacteristicTracer<dim> &,              \
+                                                  const CharacteristicTracer<dim>::Trace &,       \
+                                                  const Field<dim> &,                             \
+                                                  const BoundaryCondition<dim> &,                 \
+                                                  const double);                                  \
+  template std::vector<double>     values_since_entry(const CharacteristicTracer<dim> &,          \
+                                                      const CharacteristicTracer<dim>::Trace &,   \
+                                                      const std::vector<Field<dim>> &,            \
+                                                      const GoingOn<dim> &,                       \
+                                                      const BoundaryCondition<dim> &,             \
+                                                      const GridIndex<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace undine

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
@@ -103,17 +104,18 @@ namespace undine
                                                   const Velocity<dim>   &velocity,
                                                   const double           time,
                                                   const double           dt,
-                                                  const Bodies          &bodies)
+                                                  const Bodies          &bodies,
+                                                  const double           time_of_flow)
     : fluid_model(model)
     , among(bodies)
     , frozen_velocity(velocity)
     , start_time(time)
     , step(dt)
-    , ghost_width(layers_within(model, longest_path(model, frozen_velocity, time, dt), dt))
+    , ghost_width(layers_within(model, longest_path(model, frozen_velocity, time_of_flow, dt), dt))
     , body_vicinity(
         model.grid(), velocity[0].topology(), bodies.topology, bodies.obstruction, ghost_width)
   {
-    complete(frozen_velocity, model, ghost_width, time);
+    complete(frozen_velocity, model, ghost_width, time_of_flow);
     if (among.obstruction != nullptr)
       for (unsigned int axis = 0; axis < dim; ++axis)
         samples[axis] = std::make_unique<VisibleSamples<dim>>(
@@ -237,11 +239,18 @@ namespace undine
   typename CharacteristicTracer<dim>::Trace
   CharacteristicTracer<dim>::trace(const dealii::Point<dim> &point, const double dt) const
   {
-    const auto place = body_vicinity.place(point);
-    auto       path  = walk(place, dt / 2 * velocity_at(place));
-    if (!path.left_domain)
-      path = walk(place, dt * velocity_at(path.end));
-    return {path.end, path.left_domain, body_vicinity.is_near(place, path.end)};
+    const auto place    = body_vicinity.place(point);
+    double     duration = dt / 2;
+    auto       path     = walk(place, duration * velocity_at(place));
+    if (!path.leaving)
+      {
+        duration = dt;
+        path     = walk(place, duration * velocity_at(path.end));
+      }
+    const bool is_near = body_vicinity.is_near(place, path.end);
+    if (!path.leaving)
+      return {path.end, false, is_near, {}, std::abs(dt)};
+    return {path.end, true, is_near, path.leaving->side, path.leaving->share * std::abs(duration)};
   }
 
 
@@ -253,14 +262,14 @@ namespace undine
     constexpr double share = 0.98;
     const auto       end   = body_vicinity.place(place.point + path);
     if (const double hit = body_vicinity.first_hit(place, end); hit <= 1)
-      return {body_vicinity.place(place.point + share * hit * path), false};
-    const auto [kept, left_domain] = kept_in_domain(place.point, path);
-    return {kept == end.point ? end : body_vicinity.place(kept), left_domain};
+      return {body_vicinity.place(place.point + share * hit * path), {}};
+    const auto [kept, leaving] = kept_in_domain(place.point, path);
+    return {kept == end.point ? end : body_vicinity.place(kept), leaving};
   }
 
 
   template <int dim>
-  std::pair<dealii::Point<dim>, bool>
+  std::pair<dealii::Point<dim>, std::optional<typename CharacteristicTracer<dim>::Leaving>>
   CharacteristicTracer<dim>::kept_in_domain(const dealii::Point<dim>     &place,
                                             const dealii::Tensor<1, dim> &path) const
   {
@@ -291,10 +300,10 @@ namespace undine
             hit[d] = std::clamp(hit[d], grid.lower()[d], grid.upper()[d]);
         const auto &boundary = fluid_model.boundaries().at(side, hit);
         if (boundary.lets_fluid_pass())
-          return {hit, true};
+          return {hit, Leaving{side, when}};
         end[side.axis] = side.end == 0 ? grid.lower()[side.axis] : grid.upper()[side.axis];
       }
-    return {end, false};
+    return {end, {}};
   }
 
 

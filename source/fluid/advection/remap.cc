@@ -73,7 +73,7 @@ namespace undine
   {
     if (!field.topology() && !tracer.bodies().topology)
       return field;
-    const auto            source = completed(tracer, field, condition);
+    const auto            source = completed(tracer, field, tracer.time(), condition);
     const NearBodies<dim> near(tracer, source);
     Field<dim>            kept(source.shared_lattice(), tracer.bodies().topology);
     const auto           *divided   = kept.divided();

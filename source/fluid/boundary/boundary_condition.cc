@@ -93,13 +93,14 @@ namespace undine
                    const Velocity<dim>          &velocity,
                    const Side                    side,
                    const GridIndex<dim>         &index,
-                   const double                  time)
+                   const double                  time,
+                   const Entering<dim>          &entering)
     {
       const int      n    = field.lattice().row(side.axis).size();
       GridIndex<dim> near = index;
       near[side.axis]     = side.end == 0 ? 0 : n - 1;
 
-      const auto entering = [&](GridIndex<dim> face) {
+      const auto enters = [&](GridIndex<dim> face) {
         if (side.end == 1)
           ++face[side.axis];
         const auto &stored = velocity[side.axis].stored();
@@ -107,18 +108,23 @@ namespace undine
           face[d] = std::clamp(face[d], stored.lower[d], stored.upper[d] - 1);
         return side.sign() * velocity[side.axis](face) < 0;
       };
-      const auto place = field.lattice().point(index);
-      double     value = 0;
+      const auto   place   = field.lattice().point(index);
+      const double gone_on = entering.rate ? entering.duration * (*entering.rate)(near) : 0.;
+      double       value   = 0;
       for_each_boundary_around(
         boundaries,
         field.lattice(),
         side,
         index,
         [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &cell) {
-          if (condition.is_dirichlet(boundary))
+          if (condition.is_dirichlet(boundary) && !boundary.lets_fluid_pass())
             value += fraction * condition.dirichlet_value(boundary, side.axis, place, time);
-          else if (boundary.is_open() && entering(cell))
-            value += fraction * condition.entering_value(place, time);
+          else if (condition.is_dirichlet(boundary))
+            value +=
+              fraction *
+              (condition.dirichlet_value(boundary, side.axis, place, entering.time) + gone_on);
+          else if (boundary.is_open() && enters(cell))
+            value += fraction * (condition.entering_value(place, entering.time) + gone_on);
           else
             value += fraction * field(near);
         });
@@ -133,7 +139,8 @@ namespace undine
                        const BoundaryMap<dim>       &boundaries,
                        const BoundaryCondition<dim> &condition,
                        const Velocity<dim>          &velocity,
-                       const double                  time)
+                       const double                  time,
+                       const Entering<dim>          &entering)
   {
     // Direction by direction: points beyond two sides take over what was filled before.
     for (unsigned int axis = 0; axis < dim; ++axis)
@@ -147,7 +154,7 @@ namespace undine
             layer.upper[axis] = std::min(layer.upper[axis], index + 1);
             for_each(layer, [&](const GridIndex<dim> &point) {
               field(point) =
-                boundary_value(field, boundaries, condition, velocity, side, point, time);
+                boundary_value(field, boundaries, condition, velocity, side, point, time, entering);
             });
           }
   }
@@ -194,13 +201,15 @@ namespace undine
                        const BoundaryMap<2> &,
                        const BoundaryCondition<2> &,
                        const Velocity<2> &,
-                       const double);
+                       const double,
+                       const Entering<2> &);
   template void
   fill_boundary_points(Field<3> &,
                        const BoundaryMap<3> &,
                        const BoundaryCondition<3> &,
                        const Velocity<3> &,
-                       const double);
+                       const double,
+                       const Entering<3> &);
   template void
   set_boundary_velocity(Velocity<2> &, const BoundaryMap<2> &, const double);
   template void

@@ -129,6 +129,16 @@ namespace undine
 
 
   template <int dim>
+  bool
+  BoundaryMap<dim>::lets_fluid_pass() const
+  {
+    return std::any_of(boundaries.begin(), boundaries.end(), [](const auto &boundary) {
+      return boundary.lets_fluid_pass();
+    });
+  }
+
+
+  template <int dim>
   std::string
   BoundaryMap<dim>::wall_that_needs_viscosity() const
   {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace undine
 {
@@ -36,12 +37,15 @@ namespace undine
     }
 
 
-    /// At one face; a path that an inflow cuts short may have been `longest` cells long.
+    /// At one face; a path that an inflow cuts short may have been `longest` cells long, and has
+    /// brought what came in when it did, changed by `rate` since.
     template <int dim>
     double
     mean_at(const CharacteristicTracer<dim> &tracer,
+            const BoundaryCondition<dim>    &condition,
             const Field<dim>                &source,
             const dealii::Point<dim>        &place,
+            const double                     rate,
             const int                        longest)
     {
       const auto   middle = tracer.trace(place, -tracer.dt() / 2);
@@ -51,10 +55,20 @@ namespace undine
       double       sum    = 0;
       for (int k = 0; k < n; ++k)
         {
-          const auto trace = n == 1 ? middle : tracer.trace(place, -(k + .5) / n * tracer.dt());
+          const double since = (k + .5) / n * tracer.dt();
+          const auto   trace = n == 1 ? middle : tracer.trace(place, -since);
           if (trace.near_body)
             return no_mean;
-          sum += interpolate_cubic(source, trace.foot.point, Overshoot::kept) / n;
+          const double entry   = tracer.time() + since - trace.inside;
+          const auto   entered = trace.left_domain
+                                   ? entering_value(tracer, trace, source, condition, entry)
+                                   : std::nullopt;
+          // `source` has half of the change in the stage.
+          const double value = entered
+                                 ? *entered + trace.inside * rate
+                                 : interpolate_cubic(source, trace.foot.point, Overshoot::kept) +
+                                     (since - tracer.dt() / 2) * rate;
+          sum += value / n;
         }
       return sum;
     }
@@ -80,12 +94,18 @@ namespace undine
 
   template <int dim>
   Velocity<dim>
-  face_means(const ScalarFluxes<dim> &fluxes, const Field<dim> &half, ScalarBounds<dim> &bounds)
+  face_means(const ScalarFluxes<dim> &fluxes,
+             const Field<dim>        &begin,
+             const Field<dim>        &half,
+             ScalarBounds<dim>       &bounds)
   {
-    const auto  &flow     = fluxes.flow;
-    const auto  &tracer   = flow.paths();
-    const auto  &grid     = flow.model().grid();
-    const auto   source   = completed(tracer, half, fluxes.condition);
+    const auto &flow   = fluxes.flow;
+    const auto &tracer = flow.paths();
+    const auto &grid   = flow.model().grid();
+    const auto  source = completed(tracer, half, tracer.time() + tracer.dt() / 2, fluxes.condition);
+    const auto  rate   = [&](const GridIndex<dim> &cell) {
+      return (half(cell) - begin(cell)) / (tracer.dt() / 2);
+    };
     const double neglect  = negligible(fluxes, bounds);
     const auto   is_fixed = [&](const GridIndex<dim> &cell) {
       return bounds.upper(cell) - bounds.lower(cell) <= neglect;
@@ -104,8 +124,15 @@ namespace undine
           else if (!grid.at_boundary(axis, face) && is_fixed(below) && is_fixed(face))
             means(face) = (half(below) + half(face)) / 2;
           else
-            means(face) =
-              mean_at(tracer, source, means.lattice().point(face), bounds.reached_by_flow);
+            {
+              const auto &inside = grid.cells()->owned().contains(face) ? face : below;
+              means(face)        = mean_at(tracer,
+                                    fluxes.condition,
+                                    source,
+                                    means.lattice().point(face),
+                                    rate(inside),
+                                    bounds.reached_by_flow);
+            }
         });
       }
     exchange(result);
@@ -114,7 +141,7 @@ namespace undine
 
 
   template Velocity<2>
-  face_means(const ScalarFluxes<2> &, const Field<2> &, ScalarBounds<2> &);
+  face_means(const ScalarFluxes<2> &, const Field<2> &, const Field<2> &, ScalarBounds<2> &);
   template Velocity<3>
-  face_means(const ScalarFluxes<3> &, const Field<3> &, ScalarBounds<3> &);
+  face_means(const ScalarFluxes<3> &, const Field<3> &, const Field<3> &, ScalarBounds<3> &);
 } // namespace undine

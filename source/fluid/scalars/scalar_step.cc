@@ -240,7 +240,7 @@ namespace undine
                                    const Low               &low,
                                    ScalarBounds<dim>       &bounds) const
   {
-    auto       result = face_means(fluxes, half, bounds);
+    auto       result = face_means(fluxes, begin, half, bounds);
     auto       mean = begin, fullness = flow.volumes(0);
     const auto volumes = flow.volumes(1);
     for_each_cell_place(mean, [&](const PressurePlace<dim> &place) {

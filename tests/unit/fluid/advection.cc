@@ -244,7 +244,8 @@ TEST_CASE("fields that are advected together are advected as each of them alone"
       std::vector<Field<3>>         fields(3, Field<3>(model.grid().cells()));
       for (std::size_t k = 0; k < fields.size(); ++k)
         fill_scattered(fields[k], 4 + k);
-      const auto together = advection->advect(tracer, fields, Dye<3>());
+      const auto together =
+        advection->advect(tracer, fields, {std::vector<double>(fields.size(), 0.)}, Dye<3>());
       REQUIRE(together.size() == fields.size());
       for (std::size_t k = 0; k < fields.size(); ++k)
         {

@@ -28,6 +28,8 @@ namespace undine
 
   private:
     void
+    solve_once(State<dim> &state, const Stage &stage, Report &report);
+    void
     balance(const State<dim> &state, const typename Projection<dim>::Report &projected);
 
     const Models<dim>     &models;

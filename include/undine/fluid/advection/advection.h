@@ -12,6 +12,19 @@
 
 namespace undine
 {
+  /// How fields that are advected from t on have changed by themselves before.
+  template <int dim>
+  struct GoingOn
+  {
+    /// Each has gone on from t to that time [s], which is that of what walls prescribe. What enters
+    /// the domain has gone on for as long as it has been inside. Empty: what enters is what is on
+    /// the boundary at t.
+    std::vector<double> times = {};
+    /// With that rate, on the topology of the fields; nullptr: none.
+    const Field<dim> *rate = nullptr;
+  };
+
+
   /// A method by which the flow advects a field for one step: ds/dt + v.grad s = 0. The same code
   /// serves scalars in cells and velocities on faces.
   template <int dim>
@@ -34,6 +47,7 @@ namespace undine
     virtual std::vector<Field<dim>>
     advect(const CharacteristicTracer<dim> &tracer,
            std::vector<Field<dim>>          fields,
+           const GoingOn<dim>              &going_on,
            const BoundaryCondition<dim>    &condition) const = 0;
 
     /// The same of one field.
@@ -42,7 +56,8 @@ namespace undine
            const Field<dim>                &field,
            const BoundaryCondition<dim>    &condition) const
     {
-      return std::move(advect(tracer, std::vector<Field<dim>>(1, field), condition).front());
+      return std::move(
+        advect(tracer, std::vector<Field<dim>>(1, field), {{tracer.time()}}, condition).front());
     }
   };
 
@@ -52,14 +67,37 @@ namespace undine
   std::vector<Field<dim>>
   completed(const CharacteristicTracer<dim> &tracer,
             std::vector<Field<dim>>          fields,
+            const GoingOn<dim>              &going_on,
             const BoundaryCondition<dim>    &condition);
 
-  /// The same of one field.
+  /// The same of one field, at `time` [s].
   template <int dim>
   Field<dim>
   completed(const CharacteristicTracer<dim> &tracer,
             Field<dim>                       field,
+            const double                     time,
             const BoundaryCondition<dim>    &condition);
+
+  /// What enters the domain where a path has left it, at `time` [s]; nothing if that is what is
+  /// there.
+  template <int dim>
+  std::optional<double>
+  entering_value(const CharacteristicTracer<dim>                 &tracer,
+                 const typename CharacteristicTracer<dim>::Trace &trace,
+                 const Field<dim>                                &field,
+                 const BoundaryCondition<dim>                    &condition,
+                 const double                                     time);
+
+  /// The values that fluid brings to a point that has entered during the step: those of the time
+  /// when it did, gone on as fields of advect() since. Nothing if it has not, or that is not known.
+  template <int dim>
+  std::vector<double>
+  values_since_entry(const CharacteristicTracer<dim>                 &tracer,
+                     const typename CharacteristicTracer<dim>::Trace &trace,
+                     const std::vector<Field<dim>>                   &sources,
+                     const GoingOn<dim>                              &going_on,
+                     const BoundaryCondition<dim>                    &condition,
+                     const GridIndex<dim>                            &index);
 
   /// The values at the feet of paths that come near a body, from visible samples.
   template <int dim>
@@ -120,6 +158,7 @@ namespace undine
   std::vector<Field<dim>>
   advect_along_paths(const CharacteristicTracer<dim> &tracer,
                      const std::vector<Field<dim>>   &sources,
+                     const GoingOn<dim>              &going_on,
                      const BoundaryCondition<dim>    &condition,
                      const GridIndex<dim>            &reach,
                      Far                            &&far)
@@ -147,6 +186,11 @@ namespace undine
       if (trace.near_body)
         for (std::size_t k = 0; k < sources.size(); ++k)
           advected[k](index) = near[k].value_at(near[k].whole(index), trace.foot);
+      else if (const auto entered =
+                 values_since_entry(tracer, trace, sources, going_on, condition, index);
+               !entered.empty())
+        for (std::size_t k = 0; k < sources.size(); ++k)
+          advected[k](index) = entered[k];
       else
         {
           const auto value_of = far(trace, index);

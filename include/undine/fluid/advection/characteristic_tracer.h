@@ -9,6 +9,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,9 +26,11 @@ namespace undine
     /// The other end of the path of a particle.
     struct Trace
     {
-      Place foot;
-      bool  left_domain; ///< it met an opening or an inflow there before the time had passed
-      bool  near_body;   ///< it came near one, see BodyVicinity
+      Place  foot;
+      bool   left_domain; ///< it met an opening or an inflow there before the time had passed
+      bool   near_body;   ///< it came near one, see BodyVicinity
+      Side   side;        ///< by which it left
+      double inside;      ///< for how long it was in the domain [s]
     };
 
     /// The bodies among which the fluid moves.
@@ -42,14 +45,26 @@ namespace undine
       std::vector<dealii::Tensor<1, dim>>        wall_velocities = {};
     };
 
-    /// Copies `velocity`, at `time` [s], for steps of length dt [s]. It may belong to an earlier
-    /// position of the bodies. The model must outlive this. Collective. Throws SolveError if the
-    /// velocity is not finite.
+    /// Copies `velocity`, which is that at `time_of_flow` [s], for steps of length dt [s] from
+    /// `time` on. It may belong to an earlier position of the bodies. The model must outlive this.
+    /// Collective. Throws SolveError if the velocity is not finite.
     CharacteristicTracer(const FluidModel<dim> &model,
                          const Velocity<dim>   &velocity,
                          const double           time,
                          const double           dt,
-                         const Bodies          &bodies = {});
+                         const Bodies          &bodies,
+                         const double           time_of_flow);
+
+    /// The same with the velocity at `time`.
+    CharacteristicTracer(const FluidModel<dim> &model,
+                         const Velocity<dim>   &velocity,
+                         const double           time,
+                         const double           dt,
+                         const Bodies          &bodies = {})
+      : CharacteristicTracer(model, velocity, time, dt, bodies, time)
+    {
+    }
+
     CharacteristicTracer(const CharacteristicTracer &) = delete;
     CharacteristicTracer &
     operator=(const CharacteristicTracer &) = delete;
@@ -103,10 +118,17 @@ namespace undine
     dealii::Tensor<1, dim>
     velocity_at(const Place &place) const;
 
+    /// Through a side, after a share of the path.
+    struct Leaving
+    {
+      Side   side;
+      double share;
+    };
+
     struct Walk
     {
-      Place end;
-      bool  left_domain;
+      Place                  end;
+      std::optional<Leaving> leaving;
     };
 
     /// The end of a straight path from a place, which ends before a surface and stays in the
@@ -114,8 +136,8 @@ namespace undine
     Walk
     walk(const Place &place, const dealii::Tensor<1, dim> &path) const;
 
-    /// The same without regard to bodies, and whether the path left the domain.
-    std::pair<dealii::Point<dim>, bool>
+    /// The same without regard to bodies.
+    std::pair<dealii::Point<dim>, std::optional<Leaving>>
     kept_in_domain(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &path) const;
 
     const FluidModel<dim>                                        &fluid_model;

@@ -126,17 +126,41 @@ namespace undine
     action(boundaries.at(side, cell), above / (below + above), cell);
   }
 
+  /// What fluid that enters has at boundary points.
+  template <int dim>
+  struct Entering
+  {
+    double time; ///< the value at that time [s]
+    /// And as much more as what is inside has come to in a duration at this rate, whose ghost
+    /// layers are up to date; nullptr: none.
+    const Field<dim> *rate     = nullptr;
+    double            duration = 0; ///< [s]
+  };
+
   /// Give the stored boundary points of `field` their values at `time` [s]: prescribed, that of
   /// fluid which enters with the flow `velocity` (whose faces on the boundary must be stored
   /// there), or equal to the nearest point inside. The ghost layers of `field` must be up to date.
-  /// Not collective.
+  /// Not collective. @{
   template <int dim>
   void
   fill_boundary_points(Field<dim>                   &field,
                        const BoundaryMap<dim>       &boundaries,
                        const BoundaryCondition<dim> &condition,
                        const Velocity<dim>          &velocity,
-                       const double                  time);
+                       const double                  time,
+                       const Entering<dim>          &entering);
+
+  template <int dim>
+  void
+  fill_boundary_points(Field<dim>                   &field,
+                       const BoundaryMap<dim>       &boundaries,
+                       const BoundaryCondition<dim> &condition,
+                       const Velocity<dim>          &velocity,
+                       const double                  time)
+  {
+    fill_boundary_points(field, boundaries, condition, velocity, time, {time});
+  }
+  /// @}
 
   /// Set the owned faces and pieces on walls and inflows to their normal velocity at `time` [s].
   template <int dim>

@@ -51,6 +51,10 @@ namespace undine
     bool
     has_opening() const;
 
+    /// Is there an opening or an inflow?
+    bool
+    lets_fluid_pass() const;
+
     /// Name of a wall whose friction takes effect only with viscosity, or "" if there is none.
     std::string
     wall_that_needs_viscosity() const;

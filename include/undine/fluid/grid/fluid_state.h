@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace undine
@@ -72,11 +73,14 @@ namespace undine
   template <int dim>
   struct FluidState
   {
-    Velocity<dim>        velocity;             ///< [m/s]
-    Velocity<dim>        acceleration;         ///< Dv/Dt that the last stage has kept [m/s^2]
-    Velocity<dim>        change;               ///< dv/dt of the last stage [m/s^2]
-    DualVolumeRates<dim> volume_rates;         ///< that the last stage has kept; empty: not in use
-    Field<dim>           pressure;             ///< reduced pressure p - rho g.x [Pa]
+    Velocity<dim>        velocity;     ///< [m/s]
+    Velocity<dim>        acceleration; ///< Dv/Dt that the last stage has kept [m/s^2]
+    Velocity<dim>        change;       ///< dv/dt of the last stage [m/s^2]
+    DualVolumeRates<dim> volume_rates; ///< that the last stage has kept; empty: not in use
+    Field<dim>           pressure;     ///< reduced pressure p - rho g.x [Pa]
+    /// Of that pressure [s] where a stage is solved again with the one that it has led to; else it
+    /// is that of the state.
+    std::optional<double>             pressure_time;
     std::map<std::string, Field<dim>> scalars; ///< by name, e.g. "smoke", "temperature"
     std::map<std::string, Field<dim>>
       scalar_rates; ///< Ds/Dt that the last stage has kept [1/s], of scalars that have one

@@ -13,13 +13,18 @@ namespace undine
   ///
   ///     s_face = sum_k s(x(-(k - 1/2) h / n)) / n,                                        (F20)
   ///
-  /// by cubic interpolation of `half`, the scalar after half of the stage without flow. NaN on
+  /// by cubic interpolation of `half`, the scalar after half of the stage without flow, `begin`
+  /// being that before; what has come in meanwhile is what it was when it did, and has changed
+  /// since. NaN on
   /// pieces and where paths come near bodies. Where `bounds` leave no choice on either side, to a
   /// share of the field's range that may be neglected, paths are not traced. One ghost layer is up
   /// to date. Collective.
   template <int dim>
   Velocity<dim>
-  face_means(const ScalarFluxes<dim> &fluxes, const Field<dim> &half, ScalarBounds<dim> &bounds);
+  face_means(const ScalarFluxes<dim> &fluxes,
+             const Field<dim>        &begin,
+             const Field<dim>        &half,
+             ScalarBounds<dim>       &bounds);
 } // namespace undine
 
 #endif

@@ -27,14 +27,16 @@ namespace undine
     std::vector<Field<dim>>
     advect(const CharacteristicTracer<dim> &tracer,
            std::vector<Field<dim>>          fields,
+           const GoingOn<dim>              &going_on,
            const BoundaryCondition<dim>    &condition) const override
     {
       const auto overshoot =
         condition.obeys_maximum_principle() ? Overshoot::clipped : Overshoot::kept;
-      const auto sources = completed(tracer, std::move(fields), condition);
+      const auto sources = completed(tracer, std::move(fields), going_on, condition);
       return advect_along_paths(
         tracer,
         sources,
+        going_on,
         condition,
         tracer.reach(1),
         [&](const auto &trace, const GridIndex<dim> &) {

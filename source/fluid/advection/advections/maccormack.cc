@@ -33,29 +33,37 @@ namespace undine
     std::vector<Field<dim>>
     advect(const CharacteristicTracer<dim> &tracer,
            std::vector<Field<dim>>          fields,
+           const GoingOn<dim>              &going_on,
            const BoundaryCondition<dim>    &condition) const override
     {
-      const auto  sources = completed(tracer, std::move(fields), condition);
+      const auto  sources = completed(tracer, std::move(fields), going_on, condition);
       Predictions predictions(sources.size());
-      auto        corrected = advect_along_paths(
-        tracer, sources, condition, tracer.width(), [&](const auto &trace, const auto &index) {
-          return [&](const std::size_t k) {
-            const auto found = interpolate_with_bounds(sources[k], trace.foot.point);
-            if (!trace.left_domain)
-              predictions[k].push_back({index, found});
-            return found.value;
-          };
-        });
+      auto        corrected = advect_along_paths(tracer,
+                                          sources,
+                                          going_on,
+                                          condition,
+                                          tracer.width(),
+                                          [&](const auto &trace, const auto &index) {
+                                            return [&](const std::size_t k) {
+                                              const auto found = interpolate_with_bounds(
+                                                sources[k], trace.foot.point);
+                                              if (!trace.left_domain)
+                                                predictions[k].push_back({index, found});
+                                              return found.value;
+                                            };
+                                          });
 
       auto predicted = corrected;
-      for (auto &field : predicted)
+      for (std::size_t k = 0; k < predicted.size(); ++k)
         {
-          field.exchange(tracer.width());
-          fill_boundary_points(field,
+          const double end = tracer.time() + tracer.dt();
+          predicted[k].exchange(tracer.width());
+          fill_boundary_points(predicted[k],
                                tracer.model().boundaries(),
                                condition,
                                tracer.velocity(),
-                               tracer.time() + tracer.dt());
+                               going_on.times.empty() ? end : going_on.times[k],
+                               {end});
         }
       const bool limited = condition.obeys_maximum_principle();
       for (std::size_t i = 0; i < predictions.front().size(); ++i)

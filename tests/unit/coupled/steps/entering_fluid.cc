@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <catch2/catch.hpp>
+#include <coupled/coupled_run.h>
+
+#include <cmath>
+
+using namespace undine_tests;
+
+namespace
+{
+  /// A uniform stream along x, with the speed 1 m/s, that brings smoke in.
+  template <int dim>
+  std::string
+  stream(const double       dt,
+         const std::string &cells,
+         const std::string &form,
+         const std::string &smoke)
+  {
+    const std::string right = plane_or_space<dim>("1; 0", "1; 0; 0");
+    return steps_of(dt) + section("Domain", "set Cells = " + cells) +
+           section("Fluid",
+                   "set Density = 1\nset Initial velocity = " + right + "\n" +
+                     section("Boundaries",
+                             boundary("in", "left", "inflow", "set Velocity = " + right) +
+                               boundary("out", "right", "outflow"))) +
+           section(
+             "Effects",
+             section("scalar transport", "set Form = " + form + "\n" + section("smoke", smoke)));
+  }
+
+
+  /// The largest error of smoke after 2 s, away from the outflow, which fields leave with their
+  /// last value.
+  template <int dim, class Exact>
+  double
+  error_with(const std::string &text, const double dt, const Exact &exact)
+  {
+    CoupledRun<dim> run(text);
+    for (int n = 0; n < std::lround(2 / dt); ++n)
+      run.step();
+    const auto &smoke = run.state.fluid.scalars.at("smoke");
+    return largest_over(smoke.lattice(), [&](const GridIndex<dim> &cell) {
+      const double x = smoke.lattice().point(cell)[0];
+      return x < .7 ? std::abs(smoke(cell) - exact(x)) : 0.;
+    });
+  }
+
+
+  template <int dim>
+  void
+  check_swinging(const std::string &form)
+  {
+    double last = 0;
+    for (const double dt : {.1, .05})
+      {
+        const double now =
+          error_with<dim>(stream<dim>(dt,
+                                      plane_or_space<dim>("80, 2", "80, 2, 2"),
+                                      form,
+                                      "set Initial value = -sin(4*x)\nset Inflow value = sin(4*t)"),
+                          dt,
+                          [](const double x) { return std::sin(4 * (2 - x)); });
+        INFO(fmt::format("{}D, {}, {} s: {:.3e} after {:.3e}", dim, form, dt, now, last));
+        CHECK(now < (form == "flux" ? 1.5 * dt * dt : 1e-5));
+        last = now;
+      }
+  }
+
+
+  /// In steps that are shorter and longer than a cell takes, s = x stays as it is, but for what is
+  /// limited at the inflow and comes from the outflow.
+  template <int dim>
+  void
+  check_source(const std::string &form)
+  {
+    for (const double dt : {.02, .1, .4})
+      {
+        const double error = error_with<dim>(stream<dim>(dt,
+                                                         plane_or_space<dim>("16, 2", "16, 2, 2"),
+                                                         form,
+                                                         "set Initial value = x\nset Source = 1"),
+                                             dt,
+                                             [](const double x) { return x; });
+        INFO(fmt::format("{}D, {}, {} s: {:.3e}", dim, form, dt, error));
+        CHECK(error < (form == "flux" ? .01 : 1e-4));
+      }
+  }
+
+
+  template <int dim>
+  void
+  check_hold()
+  {
+    for (const double mu : {.1, 10.})
+      {
+        CoupledRun<dim> run(
+          steps_of(.1) +
+          section("Domain", "set Cells = " + plane_or_space<dim>("9, 8", "7, 6, 5")) +
+          section("Fluid", "set Density = 1") +
+          section("Effects",
+                  section("body force",
+                          section("Fluid",
+                                  "set Acceleration = " + plane_or_space<dim>("3; 4", "3; 4; 5"))) +
+                    viscosity(mu)));
+        for (int n = 0; n < 3; ++n)
+          {
+            run.step();
+            INFO(fmt::format("{}D, {} Pa s, step {}", dim, mu, n));
+            CHECK(run.column("Fluid largest speed") < 1e-8);
+          }
+      }
+  }
+} // namespace
+
+
+TEST_CASE("Fluid that enters brings what the inflow has had when it came", "[coupled][mpi]")
+{
+  for (const std::string form : {"along paths", "flux"})
+    {
+      check_swinging<2>(form);
+      check_swinging<3>(form);
+    }
+}
+
+
+TEST_CASE("Fluid that enters gains from sources for as long as it has been inside",
+          "[coupled][mpi]")
+{
+  for (const std::string form : {"along paths", "flux"})
+    {
+      check_source<2>(form);
+      check_source<3>(form);
+    }
+}
+
+
+TEST_CASE("A force that pressure holds from the first step on moves no viscous fluid",
+          "[coupled][mpi]")
+{
+  check_hold<2>();
+  check_hold<3>();
+}
