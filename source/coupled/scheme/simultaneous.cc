@@ -85,7 +85,6 @@ namespace undine
       SurfacePlacement<dim> placement(models);
       bool                  knows_pressure = false; ///< that of a solution of this stage
       bool                  is_corrected   = false; ///< friction
-      const bool            is_start       = is_start_of_friction(state, stage);
       const auto            go_back        = [&] {
         state = begin;
         budget.go_back_to(budget_before);
@@ -106,9 +105,8 @@ namespace undine
               ? models.surface->positions(state.solid, state.clock.time + stage.end)
               : cut_at;
           const bool is_placed = placement.accepts(cut_at, places, fluid_side.misplacement(places));
-          if (is_placed &&
-              (is_corrected || placement.is_at_limit() ||
-               (!is_start && fluid_side.friction_defect() <= settings.friction_tolerance)))
+          if (is_placed && (is_corrected || placement.is_at_limit() ||
+                            fluid_side.friction_defect() <= settings.friction_tolerance))
             return;
           fluid_side.expect(is_placed ? cut_at : placement.next(cut_at, places));
           // All later solutions start from the same pressures: with others each time, where bodies
@@ -136,13 +134,6 @@ namespace undine
     }
 
   private:
-    /// Friction does not know the pressure before the first stage of a run has been solved.
-    bool
-    is_start_of_friction(const State<dim> &state, const Stage &stage) const
-    {
-      return stage.is_first && state.clock.step == 0 && models.has_friction();
-    }
-
     /// False if the stage has no solution where the grid was cut, and `placement` knows a place
     /// closer to one at which it has.
     bool

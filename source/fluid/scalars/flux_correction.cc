@@ -25,18 +25,27 @@ namespace undine
   }
 
 
+  /// Where bounds leave no choice nothing moves but rounding.
+  template <int dim>
+  bool
+  FluxCorrection<dim>::is_fixed(const PressurePlace<dim> &place) const
+  {
+    constexpr double rounding = 1e-14; // relative
+    const double     lower = value_at(bounds.lower, place), upper = value_at(bounds.upper, place);
+    return upper - lower <= rounding * std::max(std::abs(lower), std::abs(upper));
+  }
+
+
   template <int dim>
   bool
   FluxCorrection<dim>::is_outside(const PressurePlace<dim> &place, const double value) const
   {
-    constexpr double rounding = 1e-14; // relative
-    const double     lower = value_at(bounds.lower, place), upper = value_at(bounds.upper, place);
-    const double     slack = rounding * std::max(std::abs(lower), std::abs(upper));
-    return value < lower - slack || value > upper + slack;
+    return value < value_at(bounds.lower, place) || value > value_at(bounds.upper, place);
   }
 
 
-  /// Places that stay behind begin with none. The result is what goes into them or out of them.
+  /// Places that stay behind begin with those that are fixed. The result is what goes into the
+  /// others or out of them.
   template <int dim>
   std::vector<typename FluxCorrection<dim>::Amount>
   FluxCorrection<dim>::move_all_that_can(Field<dim> &values) const
@@ -45,6 +54,10 @@ namespace undine
     const auto is_behind = [&](const PressurePlace<dim> &place) {
       return value_at(behind, place) > 0;
     };
+    constexpr double fixed = 2;
+    for_each_cell_place(behind, [&](const PressurePlace<dim> &place) {
+      value_at(behind, place) = is_fixed(place) ? fixed : 0.;
+    });
     behind.exchange(1);
     std::vector<Amount> rest;
     auto                moved    = values;
@@ -54,7 +67,11 @@ namespace undine
         moved = values;
         rest.clear();
         const auto take = [&](const Amount &each) {
-          if (is_behind(each.link.from) || (!each.at_side && is_behind(each.link.to)))
+          const double most = std::max(value_at(behind, each.link.from),
+                                       each.at_side ? 0. : value_at(behind, each.link.to));
+          if (most == fixed)
+            return;
+          if (most > 0)
             rest.push_back(each);
           else
             value_at(moved, each.link.from) -= each.amount / value_at(volumes, each.link.from);

@@ -26,9 +26,8 @@ namespace
   std::complex<double>
   wave(const double x, const double time)
   {
-    using namespace std::complex_literals;
-    const auto k = std::sqrt(1i * frequency);
-    return std::cosh(k * (x - .5)) / std::cosh(k / 2.) * std::exp(1i * frequency * time);
+    const auto k = std::sqrt(std::complex<double>(0, frequency));
+    return std::cosh(k * (x - .5)) / std::cosh(k / 2.) * std::polar(1., frequency * time);
   }
 
 

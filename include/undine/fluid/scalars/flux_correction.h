@@ -66,6 +66,8 @@ namespace undine
     void
     move_within_bounds(Field<dim> &values, std::vector<Amount> &amounts) const;
     bool
+    is_fixed(const PressurePlace<dim> &place) const;
+    bool
     is_outside(const PressurePlace<dim> &place, const double value) const;
 
     const ScalarFluxes<dim> &fluxes;
