@@ -57,9 +57,9 @@ def message_of(text):
 def reason(result):
     """Why a run has failed, without which step it was and what else is said of it."""
     step = re.match(r"step \d+, which begins at \S+ s: (?:a step of \S+ s (?:and \d+ shorter one\(s\) )?failed, the last one of \S+ s: )?"
-                    r"(?:\S+\.prm: at \S+ s )?(?:body .*?the point that rests at .*?: )?(.*)", result["failure"], re.S)
+                    r"(?:\S+\.prm: (?:at|by) \S+ s )?(?:body .*?the point that rests at .*?: )?(.*)", result["failure"], re.S)
     if step:
-        return re.split(r"[:;] |\.(?: |$)", step[1])[0]
+        return re.split(r"[:;] |\.(?: |$)|, at \(", step[1])[0]
     return re.sub(r"\S*/(?=\S+\.prm:)", "", result["failure"])  # whose folder the scene lies in does not matter
 
 

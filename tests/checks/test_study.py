@@ -300,6 +300,8 @@ class Cases(unittest.TestCase):
         several = step.replace("s failed", "s and 6 shorter one(s) failed")
         self.assertEqual(tables.reason({"failure": several + "folder/scene.prm: at 1e-05 s too much flows out: see there"}),
                          "too much flows out")
+        passes = "step 9, which begins at 0.3 s: /a/scene.prm: by 0.4 s body 'a' passes the wall at side 'top' of the domain, at (1, 2). Try: b"
+        self.assertEqual(tables.reason({"failure": passes}), "body 'a' passes the wall at side 'top' of the domain")
         self.assertEqual(tables.brief({"failure": step + "it is wrong", "reached": 0.01}), "stops at 0.01 s")
         self.assertEqual(tables.brief({"failure": "no such key. Did you mean another?"}),
                          "no such key. Did you mean another?")
