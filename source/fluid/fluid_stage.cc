@@ -214,6 +214,7 @@ namespace undine
   void
   FluidStage<dim>::finish()
   {
+    state.pressure_time.reset();
     if (stage.keeps_rates())
       {
         state.acceleration = advected_begin

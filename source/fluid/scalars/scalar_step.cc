@@ -315,13 +315,15 @@ namespace undine
 
   /// By how much the mean of what sides give in Alexander's two stages exceeds what they give in
   /// the middle of the stage, for each of for_each_side(): a difference of second order, which the
-  /// small cells of long steps would multiply.
+  /// small cells of long steps would multiply. Empty without diffusion.
   template <int dim>
   std::vector<double>
   ScalarStep<dim>::later_than_middle(const ScalarFluxes<dim> &fluxes) const
   {
     std::vector<double> result;
-    const auto          add_values = [&](const double share, const double weight) {
+    if (!fluxes.has_diffusion())
+      return result;
+    const auto add_values = [&](const double share, const double weight) {
       std::size_t k = 0;
       fluxes.for_each_side(flow.begin() + share * flow.duration(),
                            [&](const auto &, const auto &flux) {
@@ -364,7 +366,8 @@ namespace undine
       correction.add_at_side(
         place,
         h * (std::max(0., flux.rate) * (value_at(on_faces[flux.axis], flux.face) - value) +
-             flux.conductance * (value_at(diffused, place) - value - *next++)));
+             flux.conductance *
+               (value_at(diffused, place) - value - (later.empty() ? 0. : *next++))));
     });
     auto result = low.end;
     correction.move(result);
