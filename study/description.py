@@ -193,6 +193,11 @@ def check_time_of_end(quantity):
 
 def check_own_keys(study):
     """What the program cannot check, since it knows neither cases nor which keys are the study's own; ends the program."""
+    for each in study.quantities:
+        try:
+            check_time_of_end(each)
+        except ValueError as error:
+            sys.exit(f"Error: {study.file}: {error}")
     allowed = {f"{QUANTITIES}{each.name}/{key}" for each in study.quantities for key in VARIABLE}
     for settings in [study.settings] + [each for variation in study.variations for each in variation.settings]:
         for key in settings:

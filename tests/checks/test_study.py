@@ -256,6 +256,16 @@ class Cases(unittest.TestCase):
             with self.assertRaisesRegex(SystemExit, wrong):
                 check_own_keys(several)
 
+    def test_values_at_the_end_of_steps_of_several_lengths_belong_to_one_time(self):
+        for until, is_refused in ((0.0, True), (0.9, False)):
+            several = study(refinement("h", [0.2, 0.1]))
+            several.quantities.append(quantity(name="q", evaluate="end", share_of_step=0.5, until=until))
+            if is_refused:
+                with self.assertRaisesRegex(SystemExit, "give 'Until'"):
+                    check_own_keys(several)
+            else:
+                check_own_keys(several)
+
     def test_points_fill_their_box_evenly(self):
         field = quantity(columns=[], field="velocity", lower=[0, 0], upper=[1, 2], n_points=[2, 1])
         self.assertEqual(field.points(), [[0.25, 1.0], [0.75, 1.0]])
