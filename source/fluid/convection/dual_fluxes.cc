@@ -295,49 +295,26 @@ namespace undine
   }
 
 
+  /// action(SideFace, accepts) for the faces on sides of the domain beside which this rank has
+  /// places of faces normal to `axis`; of these it has those that are accepted.
   template <int dim>
+  template <class Action>
   void
-  DualFluxes<dim>::for_each_entering(const unsigned int axis, const Entering &action) const
+  DualFluxes<dim>::for_each_side(const unsigned int axis, const Action &action) const
   {
-    const auto enter = [&](const SideFace<dim> &at, const auto &act) {
-      const unsigned int d        = at.side.axis;
-      const auto        &boundary = model.boundaries().at(at.side, at.cell);
-      if (d == axis && boundary.prescribes_normal_velocity())
-        return;
-      const FacePlace<dim> place{at.face, at.piece};
-      const double         entering = -at.side.sign() * flux(d, place);
-      if (entering <= 0)
-        return;
-      const double genuine = boundary.is_open() ? genuine_share(d, place, entering) : 1;
-      const auto   bring   = [&](const FacePlace<dim> &to, const double rate, double brought) {
-        if (genuine < 1)
-          brought = genuine * brought + (1 - genuine) * value_at(motion->start[axis], to);
-        act(to, rate, brought);
-      };
-      if (d == axis)
-        {
-          bring(place, entering, value_at((motion ? unfitted : flow)[d], place));
-          return;
-        }
-      const double brought = entering_velocity(boundary, d, grid.faces(d)->wrapped(at.face), axis);
-      for (const auto &one : shares(beside(d, place, 1 - at.side.end), axis))
-        bring(one.place, one.share * entering, brought);
-    };
     if (flow.topology())
       {
-        for_each_side_face(
-          grid, flow.topology(), [&](const SideFace<dim> &at, const auto &) { enter(at, action); });
+        for_each_side_face(grid, flow.topology(), [&](const SideFace<dim> &at, const auto &) {
+          action(at, [](const FacePlace<dim> &) { return true; });
+        });
         return;
       }
     // Nothing is cut: each rank sees what enters its own places, also by cells of another one or by
     // an image of its own.
-    const auto &owned     = grid.faces(axis)->owned();
-    const auto  own_place = [&](const FacePlace<dim> &to, const double rate, const double brought) {
-      if (owned.contains(to.face))
-        action(to, rate, brought);
-    };
+    const auto &owned  = grid.faces(axis)->owned();
+    const auto  is_own = [&](const FacePlace<dim> &place) { return owned.contains(place.face); };
     for_each_side_face(
-      grid, flow.topology(), [&](const SideFace<dim> &at, const auto &) { enter(at, own_place); });
+      grid, flow.topology(), [&](const SideFace<dim> &at, const auto &) { action(at, is_own); });
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int end = 0; end < 2 && d != axis && !grid.periodic(d); ++end)
         {
@@ -349,9 +326,77 @@ namespace undine
           if (grid.periodic(axis) || below.lower[axis] > 0)
             --below.lower[axis];
           undine::for_each(below, [&](const GridIndex<dim> &face) {
-            enter({{d, end}, face, end == 0 ? face : moved<dim>(face, d, -1), -1}, own_place);
+            const auto cell = end == 0 ? face : moved<dim>(face, d, -1);
+            action(SideFace<dim>{{d, end}, face, cell, -1}, is_own);
           });
         }
+  }
+
+
+  template <int dim>
+  void
+  DualFluxes<dim>::for_each_entering(const unsigned int axis, const Entering &action) const
+  {
+    for_each_side(axis, [&](const SideFace<dim> &at, const auto &accepts) {
+      const unsigned int d        = at.side.axis;
+      const auto        &boundary = model.boundaries().at(at.side, at.cell);
+      if (d == axis && boundary.prescribes_normal_velocity())
+        return;
+      const FacePlace<dim> place{at.face, at.piece};
+      const double         entering = -at.side.sign() * flux(d, place);
+      if (entering <= 0)
+        return;
+      const double genuine = boundary.is_open() ? genuine_share(d, place, entering) : 1;
+      const auto   bring   = [&](const FacePlace<dim> &to, const double rate, double brought) {
+        if (!accepts(to))
+          return;
+        if (genuine < 1)
+          brought = genuine * brought + (1 - genuine) * value_at(motion->start[axis], to);
+        action(to, rate, brought);
+      };
+      if (d == axis)
+        {
+          bring(place, entering, value_at((motion ? unfitted : flow)[d], place));
+          return;
+        }
+      const double brought = entering_velocity(boundary, d, grid.faces(d)->wrapped(at.face), axis);
+      for (const auto &one : shares(beside(d, place, 1 - at.side.end), axis))
+        bring(one.place, one.share * entering, brought);
+    });
+  }
+
+
+  template <int dim>
+  void
+  DualFluxes<dim>::for_each_extrapolated(const unsigned int axis, const Extrapolated &action) const
+  {
+    for_each_side(axis, [&](const SideFace<dim> &at, const auto &accepts) {
+      const unsigned int d       = at.side.axis;
+      const double       leaving = at.side.sign() * flux(d, {at.face, at.piece});
+      if (d == axis || grid.cells_along()[d] < 2 || leaving <= 0)
+        return;
+      const auto inward  = [&](const auto &index) { return moved<dim>(index, d, -at.side.sign()); };
+      const auto place   = beside(d, {at.face, at.piece}, 1 - at.side.end);
+      const double width = grid.cell_width(d, at.cell[d]);
+      const double share = width / (width + grid.cell_width(d, inward(at.cell)[d]));
+      // Through all that joins it to the cell behind, in proportion to areas.
+      boost::container::small_vector<FacePlace<dim>, 2> joints;
+      double                                            sum = 0;
+      undine::for_each_place(flow[d].divided(), inward(at.face), [&](const FacePlace<dim> &joint) {
+        if (beside(d, joint, at.side.end).component != place.component)
+          return;
+        joints.push_back(joint);
+        sum += area(d, joint);
+      });
+      for (const auto &joint : joints)
+        across(shares(beside(d, joint, 1 - at.side.end), axis),
+               shares(place, axis),
+               share * leaving * area(d, joint) / sum,
+               [&](const FacePlace<dim> &behind, const FacePlace<dim> &of_side, const double rate) {
+                 if (accepts(of_side))
+                   action(of_side, behind, rate);
+               });
+    });
   }
 
 

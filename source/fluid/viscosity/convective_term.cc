@@ -41,7 +41,7 @@ namespace undine
     const Equations equations{matrix, load, dt * unknowns.model().density(), field};
     Vector          leaving = unknowns.vector();
     add_between(equations, fluxes, leaving);
-    add_entering(equations, fluxes);
+    add_sides(equations, fluxes);
     if (fluxes.start())
       add_shrinkage(equations, fluxes, leaving);
   }
@@ -118,7 +118,7 @@ namespace undine
 
   template <int dim>
   void
-  ConvectiveTerm<dim>::add_entering(const Equations &equations, const DualFluxes<dim> &fluxes) const
+  ConvectiveTerm<dim>::add_sides(const Equations &equations, const DualFluxes<dim> &fluxes) const
   {
     fluxes.for_each_entering(
       unknowns.axis(), [&](const FacePlace<dim> &place, const double flux, const double velocity) {
@@ -128,6 +128,15 @@ namespace undine
         const auto   number = unknowns.number(place);
         equations.matrix.add(number, number, mass);
         equations.load(number) += mass * velocity;
+      });
+    fluxes.for_each_extrapolated(
+      unknowns.axis(),
+      [&](const FacePlace<dim> &place, const FacePlace<dim> &behind, const double flux) {
+        if (unknowns.is_prescribed(place))
+          return;
+        const double mass = equations.mass_per_rate * flux;
+        add_entry(equations, place, place, mass);
+        add_entry(equations, place, behind, -mass);
       });
     equations.matrix.compress(dealii::VectorOperation::add);
     equations.load.compress(dealii::VectorOperation::add);

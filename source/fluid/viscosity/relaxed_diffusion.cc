@@ -167,14 +167,22 @@ namespace undine
 
   template <int dim>
   void
-  RelaxedDiffusion<dim>::add_entering(const double dt, const DualFluxes<dim> &fluxes)
+  RelaxedDiffusion<dim>::carry_through_sides(const double dt, const DualFluxes<dim> &fluxes)
   {
+    const unsigned int axis = problem.lattice->normal_axis();
     fluxes.for_each_entering(
-      problem.lattice->normal_axis(),
-      [&](const FacePlace<dim> &place, const double rate, const double velocity) {
+      axis, [&](const FacePlace<dim> &place, const double rate, const double velocity) {
         const auto here = equations.position(place.face);
         equations.diagonal[here] += dt * rate;
         equations.right_side[here] += dt * rate * velocity;
+      });
+    fluxes.for_each_extrapolated(
+      axis, [&](const FacePlace<dim> &place, const FacePlace<dim> &behind, const double rate) {
+        const auto here = equations.position(place.face);
+        equations.diagonal[here] += dt * rate;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (const int way = behind.face[d] - place.face[d]; way != 0)
+            (way > 0 ? equations.above : equations.below)[d][here] -= dt * rate;
       });
   }
 
@@ -217,7 +225,7 @@ namespace undine
     if (problem.diffusivity > 0)
       add_sides(time, dt);
     if (fluxes)
-      add_entering(dt, *fluxes);
+      carry_through_sides(dt, *fluxes);
     keep_prescribed(field);
     return equations.solve(field);
   }

@@ -3,6 +3,7 @@
 #include <undine/fluid/model/fluid_quantities.h>
 
 #include <catch2/catch.hpp>
+#include <coupled/obstacle_run.h>
 #include <effects/flow_run.h>
 
 using namespace undine_tests;
@@ -30,6 +31,34 @@ namespace
             "set Grading x = x + 0.08*sin(2*pi*x)\nset Grading y = x - 0.07*sin(2*pi*x)",
             1000.,
             section("Pressure solver", "set Divergence tolerance = 1e-13")};
+  }
+
+
+  /// A stream along x that a force of 1 m/s^2 pushes aside for as long as fluid has been inside:
+  /// along the last axis it has the velocity x.
+  template <int dim>
+  FluidText
+  pushed_stream()
+  {
+    return {
+      plane_or_space<dim>("16, 4", "16, 4, 3"),
+      boundary("in", "left", "inflow", "set Velocity = " + plane_or_space<dim>("1; 0", "1; 0; 0")) +
+        boundary("out", "right", "outflow") +
+        boundary("around",
+                 plane_or_space<dim>("bottom, top", "back, front"),
+                 "inflow",
+                 "set Velocity = " + plane_or_space<dim>("1; x", "1; 0; x")),
+      plane_or_space<dim>("1; x", "1; 0; x")};
+  }
+
+
+  template <int dim>
+  std::string
+  push()
+  {
+    return section(
+      "body force",
+      section("Fluid", "set Acceleration = " + plane_or_space<dim>("0; 1", "0; 0; 1")));
   }
 
 
@@ -122,6 +151,46 @@ TEST_CASE("Poiseuille's profile passes the flux form unchanged", "[flows]")
   const double error = largest_error(run.state.velocity[0], exact);
   CHECK(error < 0.02);
   CHECK(largest_error(run.state.velocity[1], [](const auto &) { return 0.; }) < 0.01);
+}
+
+
+TEMPLATE_TEST_CASE_SIG("What leaves in flux form leaves no waves behind: a linear profile is kept",
+                       "[flows][mpi]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  for (const double dt : {0.02, 0.5})
+    {
+      INFO(dt);
+      const unsigned int along = dim - 1;
+      FlowRun<dim>       run(pushed_stream<dim>(), flux_form() + push<dim>());
+      run.run(static_cast<unsigned int>(2 / dt), dt);
+      CHECK(largest_error(run.state.velocity[along], [](const auto &place) { return place[0]; }) <
+            1e-8);
+    }
+}
+
+
+TEST_CASE("What leaves in flux form over a floor leaves no waves behind, wherever the floor lies",
+          "[flows][mpi]")
+{
+  for (const std::string floor : {"0.25", "0.3"})
+    {
+      INFO(floor);
+      ObstacleRun<3> run(
+        pushed_stream<3>(),
+        obstacle(
+          "floor", "box", "set Lower corner = -1, -1, -1\nset Upper corner = 2, " + floor + ", 2"),
+        flux_form() + push<3>(),
+        0.1);
+      for (unsigned int n = 0; n < 20; ++n)
+        run.step();
+      CHECK(largest_on_faces<3>(run.state.fluid.velocity,
+                                [](const double value, const auto &place, const unsigned int axis) {
+                                  return axis == 2 ? std::abs(value - place[0]) : 0.;
+                                }) < 1e-8);
+    }
 }
 
 

@@ -73,6 +73,14 @@ namespace undine
     void
     for_each_entering(const unsigned int axis, const Entering &action) const;
 
+    /// action(place f, place g behind it, volume rate phi [m^dim/s]) where fluid that leaves
+    /// through a side has the velocity along it that v_f and v_g lead to there: phi (v_f - v_g) is
+    /// carried out besides (F13).
+    using Extrapolated =
+      std::function<void(const FacePlace<dim> &, const FacePlace<dim> &, const double)>;
+    void
+    for_each_extrapolated(unsigned int axis, const Extrapolated &action) const;
+
     /// action(place, volume rate with which fluid leaves it through a side of the domain
     /// [m^dim/s]), negative where fluid enters, whatever the side is.
     using Leaving = std::function<void(const FacePlace<dim> &, const double)>;
@@ -143,6 +151,9 @@ namespace undine
     void
     across(const Shares &below, const Shares &above, double flux, const Between &action) const;
 
+    template <class Action>
+    void
+    for_each_side(unsigned int axis, const Action &action) const;
     CellPlace
     beside(unsigned int axis, const FacePlace<dim> &place, unsigned int end) const;
 

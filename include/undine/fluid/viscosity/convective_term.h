@@ -57,7 +57,7 @@ namespace undine
               const FacePlace<dim> &column,
               const double          mass) const;
     void
-    add_entering(const Equations &equations, const DualFluxes<dim> &fluxes) const;
+    add_sides(const Equations &equations, const DualFluxes<dim> &fluxes) const;
     void
     add_shrinkage(const Equations &equations, const DualFluxes<dim> &fluxes, Vector &leaving) const;
 

@@ -65,7 +65,7 @@ namespace undine
     add_sides(double time, double dt);
 
     void
-    add_entering(double dt, const DualFluxes<dim> &fluxes);
+    carry_through_sides(double dt, const DualFluxes<dim> &fluxes);
 
     void
     keep_prescribed(const Field<dim> &field);
