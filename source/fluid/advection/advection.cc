@@ -34,7 +34,8 @@ namespace undine
   completed(const CharacteristicTracer<dim> &tracer,
             std::vector<Field<dim>>          fields,
             const GoingOn<dim>              &going_on,
-            const BoundaryCondition<dim>    &condition)
+            const BoundaryCondition<dim>    &condition,
+            const Extension                  extension)
   {
     std::optional<Field<dim>> rate;
     if (going_on.rate && tracer.model().boundaries().lets_fluid_pass())
@@ -51,7 +52,8 @@ namespace undine
                              condition,
                              tracer.velocity(),
                              time,
-                             {tracer.time(), rate ? &*rate : nullptr, time - tracer.time()});
+                             {tracer.time(), rate ? &*rate : nullptr, time - tracer.time()},
+                             extension);
       }
     return fields;
   }
@@ -233,7 +235,8 @@ namespace undine
   template std::vector<Field<dim>> completed(const CharacteristicTracer<dim> &,                   \
                                              std::vector<Field<dim>>,                             \
                                              const GoingOn<dim> &,                                \
-                                             const BoundaryCondition<dim> &);                     \
+                                             const BoundaryCondition<dim> &,                      \
+                                             const Extension);                                    \
   template std::optional<double>   entering_value(const CharacteristicTracer<dim> &,              \
                                                   const CharacteristicTracer<dim>::Trace &,       \
                                                   const Field<dim> &,                             \

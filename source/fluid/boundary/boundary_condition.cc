@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/grid/face_place.h>
 #include <undine/fluid/grid/field_algebra.h>
 
 namespace undine
@@ -83,8 +84,25 @@ namespace undine
 
   namespace
   {
+    /// What the two last points before a boundary point lead to there; the value of the last one
+    /// where they are parts, or there is no other.
+    template <int dim>
+    double
+    extrapolated(const Field<dim> &field, const Side side, const GridIndex<dim> &near)
+    {
+      const auto &row  = field.lattice().row(side.axis);
+      const auto  next = moved<dim>(near, side.axis, -side.sign());
+      if (row.size() < 2 || !is_whole(field.divided(), near) || !is_whole(field.divided(), next))
+        return field(near);
+      const int    n      = near[side.axis];
+      const double beyond = (row.position(n + side.sign()) - row.position(n)) /
+                            (row.position(n) - row.position(n - side.sign()));
+      return field(near) + beyond * (field(near) - field(next));
+    }
+
+
     /// The value of one boundary point: shares that are prescribed or that enter, plus the rest of
-    /// the nearest value inside.
+    /// what is inside.
     template <int dim>
     double
     boundary_value(const Field<dim>             &field,
@@ -94,7 +112,8 @@ namespace undine
                    const Side                    side,
                    const GridIndex<dim>         &index,
                    const double                  time,
-                   const Entering<dim>          &entering)
+                   const Entering<dim>          &entering,
+                   const Extension               extension)
     {
       const int      n    = field.lattice().row(side.axis).size();
       GridIndex<dim> near = index;
@@ -126,7 +145,8 @@ namespace undine
           else if (boundary.is_open() && enters(cell))
             value += fraction * (condition.entering_value(place, entering.time) + gone_on);
           else
-            value += fraction * field(near);
+            value += fraction * (extension == Extension::linear ? extrapolated(field, side, near)
+                                                                : field(near));
         });
       return value;
     }
@@ -140,7 +160,8 @@ namespace undine
                        const BoundaryCondition<dim> &condition,
                        const Velocity<dim>          &velocity,
                        const double                  time,
-                       const Entering<dim>          &entering)
+                       const Entering<dim>          &entering,
+                       const Extension               extension)
   {
     // Direction by direction: points beyond two sides take over what was filled before.
     for (unsigned int axis = 0; axis < dim; ++axis)
@@ -153,8 +174,8 @@ namespace undine
             layer.lower[axis] = std::max(layer.lower[axis], index);
             layer.upper[axis] = std::min(layer.upper[axis], index + 1);
             for_each(layer, [&](const GridIndex<dim> &point) {
-              field(point) =
-                boundary_value(field, boundaries, condition, velocity, side, point, time, entering);
+              field(point) = boundary_value(
+                field, boundaries, condition, velocity, side, point, time, entering, extension);
             });
           }
   }
@@ -202,14 +223,16 @@ namespace undine
                        const BoundaryCondition<2> &,
                        const Velocity<2> &,
                        const double,
-                       const Entering<2> &);
+                       const Entering<2> &,
+                       const Extension);
   template void
   fill_boundary_points(Field<3> &,
                        const BoundaryMap<3> &,
                        const BoundaryCondition<3> &,
                        const Velocity<3> &,
                        const double,
-                       const Entering<3> &);
+                       const Entering<3> &,
+                       const Extension);
   template void
   set_boundary_velocity(Velocity<2> &, const BoundaryMap<2> &, const double);
   template void

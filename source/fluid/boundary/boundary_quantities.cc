@@ -94,6 +94,20 @@ namespace undine
         force = dealii::Utilities::MPI::sum(force, communicator);
       return forces;
     }
+
+
+    /// action(side, face, flux outwards [m^dim/s]) for the faces of this rank on sides.
+    template <int dim, class Action>
+    void
+    for_each_flux(const MacGrid<dim> &grid, const Velocity<dim> &velocity, const Action &action)
+    {
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        for_each_next_to_side(
+          grid, *grid.faces(axis), [&](const Side side, const GridIndex<dim> &face) {
+            if (side.axis == axis)
+              action(side, face, side.sign() * grid.face_area(axis, face) * velocity[axis](face));
+          });
+    }
   } // namespace
 
 
@@ -103,13 +117,10 @@ namespace undine
   {
     const auto         &grid = boundaries.grid();
     std::vector<double> fluxes(boundaries.all().size(), 0.);
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      for_each_next_to_side(
-        grid, *grid.faces(axis), [&](const Side side, const GridIndex<dim> &face) {
-          if (side.axis == axis)
-            fluxes[boundaries.number(side, face)] +=
-              side.sign() * grid.face_area(axis, face) * velocity[axis](face);
-        });
+    for_each_flux(
+      grid, velocity, [&](const Side side, const GridIndex<dim> &face, const double flux) {
+        fluxes[boundaries.number(side, face)] += flux;
+      });
     for (double &flux : fluxes)
       flux = dealii::Utilities::MPI::sum(flux, grid.communicator());
     return fluxes;
@@ -124,12 +135,16 @@ namespace undine
       return "";
     const auto  fluxes = boundary_fluxes(boundaries, velocity);
     double      net    = 0;
-    double      size   = 0;
+    double      size   = 0; // of what rounds the sum: the same boundary may let in and out
     std::string list;
+    for_each_flux(
+      boundaries.grid(), velocity, [&](const Side, const GridIndex<dim> &, const double flux) {
+        size += std::abs(flux);
+      });
+    size = dealii::Utilities::MPI::sum(size, boundaries.grid().communicator());
     for (unsigned int b = 0; b < fluxes.size(); ++b)
       {
         net += fluxes[b];
-        size += std::abs(fluxes[b]);
         if (fluxes[b] != 0)
           list += fmt::format(
             "{}'{}' {:.6g}", list.empty() ? "" : ", ", boundaries.all()[b].name, fluxes[b]);

@@ -102,10 +102,17 @@ namespace undine
     const auto &flow   = fluxes.flow;
     const auto &tracer = flow.paths();
     const auto &grid   = flow.model().grid();
-    const auto  source = completed(tracer, half, tracer.time() + tracer.dt() / 2, fluxes.condition);
-    const auto  rate   = [&](const GridIndex<dim> &cell) {
-      return (half(cell) - begin(cell)) / (tracer.dt() / 2);
-    };
+    // The feet of paths are at the begin of the stage: there `half` has what came in until then,
+    // gone on as all has.
+    Field<dim> rate(half.shared_lattice(), half.topology());
+    add(rate, 2 / tracer.dt(), half);
+    add(rate, -2 / tracer.dt(), begin);
+    const auto source = completed(tracer,
+                                  std::vector<Field<dim>>(1, half),
+                                  {{tracer.time() + tracer.dt() / 2}, &rate},
+                                  fluxes.condition,
+                                  Extension::linear)
+                          .front();
     const double neglect  = negligible(fluxes, bounds);
     const auto   is_fixed = [&](const GridIndex<dim> &cell) {
       return bounds.upper(cell) - bounds.lower(cell) <= neglect;

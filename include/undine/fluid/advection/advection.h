@@ -62,13 +62,14 @@ namespace undine
   };
 
   /// `fields` with the ghost layers that `tracer` needs and with boundary points as `condition`
-  /// says. Collective.
+  /// and `extension` say. Collective.
   template <int dim>
   std::vector<Field<dim>>
   completed(const CharacteristicTracer<dim> &tracer,
             std::vector<Field<dim>>          fields,
             const GoingOn<dim>              &going_on,
-            const BoundaryCondition<dim>    &condition);
+            const BoundaryCondition<dim>    &condition,
+            Extension                        extension = Extension::constant);
 
   /// The same of one field, at `time` [s].
   template <int dim>

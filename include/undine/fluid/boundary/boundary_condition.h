@@ -137,10 +137,17 @@ namespace undine
     double            duration = 0; ///< [s]
   };
 
+  /// How a field goes on to boundary points where nothing is prescribed and nothing enters.
+  enum class Extension
+  {
+    constant, ///< it is as inside: no new extrema
+    linear    ///< the straight line through the two last points, where both are whole
+  };
+
   /// Give the stored boundary points of `field` their values at `time` [s]: prescribed, that of
   /// fluid which enters with the flow `velocity` (whose faces on the boundary must be stored
-  /// there), or equal to the nearest point inside. The ghost layers of `field` must be up to date.
-  /// Not collective. @{
+  /// there), or what is inside, gone on as `extension` says. The ghost layers of `field` must be up
+  /// to date. Not collective. @{
   template <int dim>
   void
   fill_boundary_points(Field<dim>                   &field,
@@ -148,7 +155,8 @@ namespace undine
                        const BoundaryCondition<dim> &condition,
                        const Velocity<dim>          &velocity,
                        const double                  time,
-                       const Entering<dim>          &entering);
+                       const Entering<dim>          &entering,
+                       Extension                     extension = Extension::constant);
 
   template <int dim>
   void
