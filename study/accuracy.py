@@ -97,7 +97,7 @@ def refuse_folder(folder):
 def main(words):
     options = arguments(words)
     found = knobs.parameters(options.program, options.scene, options.assignments)
-    settings = dict(assignment.split("=", 1) for assignment in options.assignments)
+    settings = dict(map(str.strip, assignment.split("=", 1)) for assignment in options.assignments)
     if float(found.get("Time/Tolerance", 0)) > 0:
         print("note: 'Time/Tolerance' is left out of account: the step is chosen for the error", file=sys.stderr)
         settings["Time/Tolerance"] = "0"

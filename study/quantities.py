@@ -62,6 +62,8 @@ def series(quantity, columns):
     if quantity.rate:
         values = rates(times, values, quantity.rate_over)
     if quantity.share_of_step < 1:
+        if quantity.rate:
+            raise NotEvaluated("'Rate' is that at the ends of steps: not with 'Share of step' below 1")
         times = times[:-1] + quantity.share_of_step * numpy.diff(times)
         values = values[1:]
     return times, values
@@ -84,6 +86,8 @@ def window(quantity, columns):
     times, values = series(quantity, columns)
     slack = 1e-9 * max(times[-1], 1e-300)
     start, until = max(quantity.start, times[0]), min(quantity.until or times[-1], times[-1])
+    if quantity.evaluate == "end" and quantity.share_of_step < 1 and (quantity.until or times[-1] + 1) > times[-1] + slack:
+        raise NotEvaluated(f"the last value is that of {times[-1]:g} s, which depends on the step: 'Until' must come before it")
     if start > until + slack:
         raise NotEvaluated(f"no row between {quantity.start:g} s and {quantity.until or times[-1]:g} s")
     inside = times[(times > start + slack) & (times < until - slack)]

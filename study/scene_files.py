@@ -5,13 +5,22 @@ import os
 import re
 
 
+def without_comment(line):
+    """A '#' after an odd number of backslashes is a part of the value."""
+    return re.match(r"(?:[^#\\]|\\.)*\\?", line.rstrip("\n"))[0].strip()
+
+
+def is_continued(line):
+    return (len(line) - len(line.rstrip("\\"))) % 2 == 1
+
+
 def blocks(file):
     """Lines of a parameter file, each with those that continue it."""
     block = ""
     with open(file, errors="replace") as stream:
         for line in stream:
             block += line
-            if not line.split("#")[0].rstrip().endswith("\\"):
+            if not is_continued(without_comment(line)):
                 yield block.rstrip("\n") + "\n"
                 block = ""
 

@@ -13,6 +13,7 @@
 #include <undine/driver/size_check.h>
 #include <undine/driver/time_loop.h>
 #include <undine/output/checkpoint/checkpoint.h>
+#include <undine/output/columns_of_step.h>
 #include <undine/output/files/schedule.h>
 #include <undine/scene/scene.h>
 
@@ -173,6 +174,26 @@ namespace undine
     }
 
 
+    /// What a probe cannot tell at the start is a mistake in the scene.
+    template <int dim>
+    void
+    ask_probes_at_start(Report           &report,
+                        const State<dim> &state,
+                        const Scene<dim> &scene,
+                        TimingTree       &timing)
+    {
+      try
+        {
+          ask_probes(report, state, scene, timing);
+        }
+      catch (const SolveError &error)
+        {
+          throw InputError(error.what());
+        }
+      assert_different_names(state.clock, report);
+    }
+
+
     /// The state at the start of a run. Throws InputError if an expression had no value where one
     /// was needed, be it only to find out where something is; SolveError if the state cannot be
     /// found and there is no such reason.
@@ -183,7 +204,8 @@ namespace undine
       state.clock = scene.clock;
       try
         {
-          const auto report = scene.scheme->initialize(state, scene.models, timing);
+          auto report = scene.scheme->initialize(state, scene.models, timing);
+          ask_probes_at_start(report, state, scene, timing);
           const auto complaint =
             undefined_values(options, state.clock.time, scene.models.communicator());
           if (!complaint.empty())
@@ -226,8 +248,7 @@ namespace undine
            const MPI_Comm communicator)
     {
       const auto timed = timing.section("initialise");
-      Report     first = start(state, scene, options, timing);
-      ask_probes(first, state, scene, timing);
+      const auto first = start(state, scene, options, timing);
 
       const OutputContext<dim>   context{communicator, folder, scene.models, scene.probes, timing};
       std::optional<ResumedFrom> from;

@@ -5,6 +5,8 @@
 #include <undine/driver/progress.h>
 #include <undine/driver/time_loop.h>
 
+#include <optional>
+
 namespace undine
 {
   namespace
@@ -20,6 +22,30 @@ namespace undine
       for (auto &output : scene.outputs)
         if (output->due(state.clock))
           output->write(state, report);
+    }
+
+
+    /// A step, with what probes say of its end. If one of them fails the state is again that before
+    /// the step: the rows that have been written must lead up to it.
+    template <int dim>
+    Report
+    make_step(State<dim> &state, Scene<dim> &scene, TimingTree &timing)
+    {
+      std::optional<State<dim>> before;
+      if (!scene.probes.empty())
+        before = state;
+      Report report = scene.scheme->step(state, scene.scheme->choose_dt(state));
+      state.clock.advance(report.dt); // what was accepted; retries happen inside step
+      try
+        {
+          ask_probes(report, state, scene, timing);
+        }
+      catch (const Error &)
+        {
+          state = *before;
+          throw;
+        }
+      return report;
     }
   } // namespace
 
@@ -49,10 +75,7 @@ namespace undine
     while (!state.clock.ended())
       {
         throw_if_interrupted(scene.models.communicator());
-        const double dt     = scene.scheme->choose_dt(state);
-        Report       report = scene.scheme->step(state, dt);
-        state.clock.advance(report.dt); // what was accepted; retries happen inside step
-        ask_probes(report, state, scene, timing);
+        const Report report = make_step(state, scene, timing);
         if (report.steady)
           state.clock.end_time = state.clock.time;
         watch.step(state, report);

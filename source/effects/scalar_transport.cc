@@ -329,7 +329,15 @@ namespace undine
                 const TransportedScalar<dim>     &field,
                 const std::vector<Boundary<dim>> &boundaries)
     {
-      check_name(options, field, {"velocity", "pressure", "vorticity_magnitude"});
+      check_name(options,
+                 field,
+                 {"velocity",
+                  "pressure",
+                  "vorticity_magnitude",
+                  "component",
+                  "fluid_fraction",
+                  "nodes",
+                  "cells"});
       std::string known;
       for (const auto &boundary : boundaries)
         known += (known.empty() ? "'" : ", '") + boundary.name + "'";

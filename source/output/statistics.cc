@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/columns_of_step.h>
 #include <undine/output/output.h>
 #include <undine/output/probes/probe.h>
 #include <undine/output/statistics_file.h>
@@ -11,18 +12,6 @@ namespace undine
     append(Columns &columns, const Columns &more)
     {
       columns.insert(columns.end(), more.begin(), more.end());
-    }
-
-
-    Columns
-    columns_of_step(const Clock &clock, const Report &report)
-    {
-      return {{"Step", "1", double(clock.step)},
-              {"Time", "s", clock.time},
-              {"Step length", "s", report.dt},
-              {"Newton iterations", "1", double(report.newton_iterations)},
-              {"Linear iterations", "1", double(report.linear_iterations)},
-              {"Step cuts", "1", double(report.cuts)}};
     }
   } // namespace
 

@@ -16,6 +16,35 @@ import time
 import scene_tools
 
 
+MOVING_PILLAR = """
+set Dimension = 2
+subsection Time
+  set End  = 0.6
+  set Step = 0.1
+end
+subsection Domain
+  set Cells = 10, 10
+end
+subsection Fluid
+  set Density = 1
+end
+subsection Obstacles
+  subsection pillar
+    set Shape        = ball
+    set Centre       = 0.25, 0.5
+    set Radius       = 0.15
+    set Displacement = 0.5*t; 0
+  end
+end
+subsection Probes
+  subsection room
+    set Kind  = chamber
+    set Point = 0.52, 0.52
+  end
+end
+"""
+
+
 def call(program, *arguments, ranks=1):
     return subprocess.run(scene_tools.command(program, [str(a) for a in arguments], ranks),
                           env=scene_tools.environment(), capture_output=True, text=True, timeout=120)
@@ -188,6 +217,18 @@ def check_new_rates(program, folder):
     expect(f"which adds to it: {smoke}", abs(smoke[2] - 0.5) < 1e-9 and abs(smoke[4] - 0.7) < 1e-9)
 
 
+def check_failing_probe(program, folder):
+    """A probe that fails in the middle of a run leaves rows that lead up to the state that is kept."""
+    scene, results = folder / "probe.prm", folder / "probe"
+    scene.write_text(MOVING_PILLAR)
+    result = call(program, scene, "--output", results)
+    expect("the pillar reaches the probe in the third step", result.returncode == 3 and
+           "step 3, which begins" in result.stderr and "Probes/room" in result.stderr and
+           steps(results) == [0, 1, 2], result)
+    result = call(program, "resume", results, *settings("Probes/room/Point=0.9, 0.9"))
+    expect("elsewhere it can go on", result.returncode == 0 and steps(results) == list(range(7)), result)
+
+
 def check_changed_bodies(program, scenes, folder):
     for scene, changes in (("cantilever.prm", ["Bodies/beam/Upper corner=0.5, 0.05, 0.101"]),
                            ("floating_block.prm", ["Bodies/block/Lower corner=0.4, 0.27",
@@ -209,6 +250,7 @@ def main():
         check_refused_resumes(program, scenes, folder)
         check_changed_bodies(program, scenes, folder)
         check_new_rates(program, folder)
+        check_failing_probe(program, folder)
     print("folders of results: nothing lost, nothing mixed, nothing of others touched")
 
 

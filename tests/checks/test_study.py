@@ -173,6 +173,15 @@ class Quantities(unittest.TestCase):
         numpy.testing.assert_allclose(found.times, [0.5, 2])
         numpy.testing.assert_allclose(found.values[:, 0], [1, 2])
 
+    def test_values_within_steps_are_not_taken_where_they_belong_to_other_times_with_each_step(self):
+        columns = {"Time": numpy.array([0.0, 1, 2, 3]), "a": numpy.array([7.0, 1, 2, 3])}
+        for until in (0.0, 2.9):
+            with self.assertRaisesRegex(quantities.NotEvaluated, "depends on the step"):
+                quantities.evaluate(quantity(share_of_step=0.5, until=until), columns)
+        self.assertEqual(quantities.evaluate(quantity(share_of_step=0.5, until=2.5), columns).values[0, 0], 3)
+        with self.assertRaisesRegex(quantities.NotEvaluated, "Rate"):
+            quantities.evaluate(quantity(share_of_step=0.5, rate=True, evaluate="over time"), columns)
+
     def test_rates_are_of_second_order_and_exact_for_parabolas(self):
         times = numpy.array([0, 0.4, 1.1, 1.5, 2.3])
         parabola = {"Time": times, "a": 3 + times - 2 * times ** 2, "b": times ** 2}
@@ -288,6 +297,9 @@ class Cases(unittest.TestCase):
                 with open(os.path.join(folder, name), "w") as file:
                     file.write(text)
             write("part.inc", "subsection B # set\n  set Theta = 1\nend\nset Theta = 2 # set anew below\nset End = 2 # kept\n")
+            write("titled.prm", "set Title = run \\# 1\nsubsection Time\n  set End = 1\nend\nset Name = a\\\\\nset B = 2\n")
+            self.assertEqual(scene_files.without(os.path.join(folder, "titled.prm"), {"Time/End", "B"}),
+                             "set Title = run \\# 1\nsubsection Time\nend\nset Name = a\\\\\n")
             write("scene.prm", "set Gamma = 3\nsubsection Time\n  set Gamma = 1 + \\\n  2\n  set Theta= 4\n"
                                "  include part.inc\nend")
             self.assertEqual(scene_files.without(os.path.join(folder, "scene.prm"), {"Time/Gamma", "Time/B/Theta"}),

@@ -240,9 +240,10 @@ namespace undine
                                    const Low               &low,
                                    ScalarBounds<dim>       &bounds) const
   {
-    auto       result = face_means(fluxes, begin, half, bounds);
-    auto       mean = begin, fullness = flow.volumes(0);
-    const auto volumes = flow.volumes(1);
+    const auto &grid   = flow.model().grid();
+    auto        result = face_means(fluxes, begin, half, bounds);
+    auto        mean = begin, fullness = flow.volumes(0);
+    const auto  volumes = flow.volumes(1);
     for_each_cell_place(mean, [&](const PressurePlace<dim> &place) {
       value_at(mean, place) += (value_at(low.end, place) - value_at(mean, place)) / 2;
       value_at(fullness, place) = std::min(value_at(fullness, place), value_at(volumes, place)) /
@@ -257,7 +258,12 @@ namespace undine
       const double from = value_at(mean, link.from), to = value_at(mean, link.to);
       const double central =
         std::min({1., 2 * value_at(fullness, link.from), 2 * value_at(fullness, link.to)});
-      value = central * (from + to) / 2 + (1 - central) * (flux.rate > 0 ? from : to);
+      const auto width = [&](const PressurePlace<dim> &place) {
+        return grid.cell_width(link.axis, place.cell[link.axis]);
+      };
+      const double linear =
+        (width(link.to) * from + width(link.from) * to) / (width(link.from) + width(link.to));
+      value = central * linear + (1 - central) * (flux.rate > 0 ? from : to);
     });
     fluxes.for_each_side(flow.begin(), [&](const PressurePlace<dim> &place, const auto &flux) {
       double &value = value_at(result[flux.axis], flux.face.face, flux.face.part);

@@ -35,10 +35,17 @@ namespace undine
     Columns
     columns(const Models<dim> &models, const State<dim> &state) const override
     {
-      const auto region = measure_region(models, state, point);
-      const auto unit   = "m^" + std::to_string(dim);
-      return {{name + " volume", unit, region.volume},
-              {name + " inflow", unit + "/s", region.inflow}};
+      const auto unit = "m^" + std::to_string(dim);
+      try
+        {
+          const auto region = measure_region(models, state, point);
+          return {{name + " volume", unit, region.volume},
+                  {name + " inflow", unit + "/s", region.inflow}};
+        }
+      catch (const SolveError &error)
+        {
+          throw SolveError("Probes/" + name + ", 'Point': " + error.what());
+        }
     }
 
   private:

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_output_columns_of_step_h
+#define undine_output_columns_of_step_h
+
+#include <undine/base/core/clock.h>
+#include <undine/coupled/state/report.h>
+
+namespace undine
+{
+  /// The columns with which a row of the file `statistics` begins: when, and how the step went.
+  Columns
+  columns_of_step(const Clock &clock, const Report &report);
+
+  /// Throws InputError if two columns of that file had the same name.
+  void
+  assert_different_names(const Clock &clock, const Report &report);
+} // namespace undine
+
+#endif
