@@ -2,6 +2,7 @@
 #include <undine/base/core/interruption.h>
 #include <undine/coupled/adaptivity/sleeping_bodies.h>
 #include <undine/solid/assembly/mass_matrix.h>
+#include <undine/solid/solvers/mass_solve.h>
 #include <undine/solid/step/solid_columns.h>
 
 #include <algorithm>
@@ -298,7 +299,22 @@ namespace undine
         budget.add_rest(rest, rates);
       }
     part->of_asleep->put_into(state.solid.velocity, model.vector());
-    part->of_asleep->put_into(state.solid.acceleration, model.vector());
+    auto acceleration = model.vector();
+    if (state.solid.impulse_acceleration.size() > 0)
+      {
+        // What loads and stresses would bring, fluid and contact take back (T4).
+        auto still     = part->of_asleep->taken_from(state.solid);
+        still.velocity = 0;
+        acceleration   = solve_mass(
+          model,
+          mass_matrix(model),
+          SolidStepper<dim>(model).unbalanced_forces(still, environment, state.clock.time),
+          model.vector());
+        auto impulses = acceleration;
+        impulses *= -1.;
+        part->of_asleep->put_into(state.solid.impulse_acceleration, impulses);
+      }
+    part->of_asleep->put_into(state.solid.acceleration, acceleration);
     state.sleep.settled = true;
   }
 

@@ -31,6 +31,17 @@ namespace undine
   }
 
 
+  template <int dim>
+  void
+  SolidSide<dim>::expect_loads(State<dim> &state) const
+  {
+    if (!model.numerics().integrator->uses_acceleration())
+      return;
+    state.solid.impulse_acceleration = state.solid.acceleration;
+    state.solid.impulse_acceleration *= -1.;
+  }
+
+
   /// How the bodies that `forces` of contact act on are expected to go on from the begin of the
   /// stage: with the velocity there, without what forces have changed since, of which contact stops
   /// the rest. All others as they would without contact.

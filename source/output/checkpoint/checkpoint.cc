@@ -246,6 +246,10 @@ namespace undine
         state.solid.fluid_loads = {}; // written by an earlier version
       if (models.solid && file.contains(contact_forces_array))
         state.solid.contact_forces = models.solid->vector();
+      if (!file.contains(impulse_acceleration_array))
+        state.solid.impulse_acceleration = {}; // of another integrator, or an earlier version
+      else if (models.solid)
+        state.solid.impulse_acceleration = models.solid->vector();
       auto surface = pack_surface(models, state);
       read_arrays(surface, file, slot, communicator);
       unpack_surface(state, models, surface);

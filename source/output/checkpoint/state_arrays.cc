@@ -182,6 +182,8 @@ namespace undine
         action(fluid_loads_array, solid.fluid_loads);
       if (solid.contact_forces.size() > 0)
         action(contact_forces_array, solid.contact_forces);
+      if (solid.impulse_acceleration.size() > 0)
+        action(impulse_acceleration_array, solid.impulse_acceleration);
       for_each_sample(state.history, [&](const std::string &name, auto &sample) {
         action(name + "/bodies", sample.bodies);
       });

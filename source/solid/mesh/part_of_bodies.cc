@@ -109,7 +109,8 @@ namespace undine
             taken_from(of_all.velocity),
             taken_from(of_all.acceleration),
             if_known(of_all.fluid_loads),
-            if_known(of_all.contact_forces)};
+            if_known(of_all.contact_forces),
+            if_known(of_all.impulse_acceleration)};
   }
 
 
@@ -130,6 +131,7 @@ namespace undine
     if_known(of_all.fluid_loads, of_part.fluid_loads);
     of_all.contact_forces = {}; // bodies that sleep have no rates
     if_known(of_all.contact_forces, of_part.contact_forces);
+    if_known(of_all.impulse_acceleration, of_part.impulse_acceleration);
   }
 
 

@@ -539,8 +539,14 @@ namespace undine
             Vector others = nodal_forces;
             if (by_contact.pressures.size() > 0)
               others.add(-1., by_contact.pressures);
-            state.acceleration.add(-coefficients.acceleration * dt,
-                                   solve_mass(model, mass, others, model.vector()));
+            state.impulse_acceleration = solve_mass(model, mass, others, model.vector());
+            state.acceleration.add(-coefficients.acceleration * dt, state.impulse_acceleration);
+          }
+        if (by_contact.velocity.size() > 0)
+          {
+            if (state.impulse_acceleration.size() == 0)
+              state.impulse_acceleration = model.vector();
+            state.impulse_acceleration.add(1 / dt, by_contact.velocity);
           }
         prescribe_acceleration(
           state.acceleration, model, time + (1 + integrator.acceleration_shift()) * dt, dt);

@@ -37,11 +37,23 @@ namespace undine
     Vector velocity = solid.vector();
     velocity.add(-step_coefficients.displacement_velocity / step_coefficients.displacement,
                  old.velocity);
-    if (step_coefficients.displacement_acceleration != 0)
-      velocity.add(-step_coefficients.displacement_acceleration / step_coefficients.displacement,
-                   old.acceleration);
+    add_old_accelerations(
+      velocity, -step_coefficients.displacement_acceleration / step_coefficients.displacement);
     prescribe_velocity(velocity, solid, time + length, length);
     return velocity;
+  }
+
+
+  /// All that there was of acceleration at the begin of the step.
+  template <int dim>
+  void
+  StepMotion<dim>::add_old_accelerations(Vector &vector, const double factor) const
+  {
+    if (factor == 0)
+      return;
+    vector.add(factor, old.acceleration);
+    if (old.impulse_acceleration.size() > 0)
+      vector.add(factor, old.impulse_acceleration);
   }
 
 
@@ -53,8 +65,7 @@ namespace undine
     Vector result = velocity;
     result *= step_coefficients.displacement;
     result.add(step_coefficients.displacement_velocity, old.velocity);
-    if (step_coefficients.displacement_acceleration != 0)
-      result.add(step_coefficients.displacement_acceleration, old.acceleration);
+    add_old_accelerations(result, step_coefficients.displacement_acceleration);
     return result;
   }
 

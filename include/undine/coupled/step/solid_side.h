@@ -26,6 +26,11 @@ namespace undine
     void
     initialize(State<dim> &state, double dt) const;
 
+    /// After initialize(), where a fluid will load the bodies: until it is known how much, it holds
+    /// them, as it does those that are at rest (T4).
+    void
+    expect_loads(State<dim> &state) const;
+
     /// The bodies of `state` become those from which the stage of the step from t^n starts, their
     /// values at its begin gone on with the rates that were kept; the budget, if it is on, gets
     /// their energy and momentum. Does nothing if the stage keeps no rates. Collective.

@@ -25,6 +25,9 @@ namespace undine
   /// The array that holds SolidState::contact_forces in a checkpoint, while bodies touch something.
   inline const std::string contact_forces_array = "solid/forces of contact";
 
+  /// The array that holds SolidState::impulse_acceleration in a checkpoint, if there is one.
+  inline const std::string impulse_acceleration_array = "solid/acceleration by impulses";
+
   /// The arrays that hold FluidState::scalar_rates in a checkpoint, followed by the scalar's name.
   inline const std::string scalar_rates_array = "fluid/scalar_rates/";
 

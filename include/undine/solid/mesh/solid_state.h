@@ -19,6 +19,9 @@ namespace undine
 
     /// f_c of contact, which the rates that the last stage has kept contain (T1) [N]; empty: none.
     dealii::TrilinosWrappers::MPI::Vector contact_forces;
+
+    /// What forces that are no part of `acceleration` bring beside it (T4) [m/s^2]; empty: none.
+    dealii::TrilinosWrappers::MPI::Vector impulse_acceleration;
   };
 } // namespace undine
 

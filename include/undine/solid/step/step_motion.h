@@ -74,6 +74,8 @@ namespace undine
     level_displacement(const Vector &end_displacement, double position) const;
 
   private:
+    void
+    add_old_accelerations(Vector &vector, double factor) const;
     Vector
     free_increment(const Vector &velocity) const;
 

@@ -251,7 +251,7 @@ TEST_CASE("The fluid loses the impulses of its forces on bodies, which get them"
       {
         INFO(name);
         const auto integrator = section("Time", "set Integrator = " + name);
-        // With that one light bodies shake more and more, in shorter and shorter steps.
+        // That one averages forces, and leaves .7 % of the impulses on light bodies to later steps.
         const double density = name == "generalised_alpha" ? 20 : 2;
         check_body<2>(integrator, flux_form(), density);
         check_body<2>(integrator, convection(), density);
