@@ -2,10 +2,12 @@
 #include <undine/base/core/interruption.h>
 #include <undine/coupled/adaptivity/sleeping_bodies.h>
 #include <undine/solid/assembly/mass_matrix.h>
+#include <undine/solid/assembly/sums_by_body.h>
 #include <undine/solid/solvers/mass_solve.h>
 #include <undine/solid/step/solid_columns.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
@@ -185,12 +187,15 @@ namespace undine
       {
         sleep.asleep.assign(masses.size(), false);
         sleep.slow_time.assign(masses.size(), 0.);
+        sleep.unbalanced.assign(masses.size(), 0.);
         sleep.loads.assign(surface ? surface->n_nodes() : 0, {});
       }
     // A scene may have been changed before it was resumed.
     for (unsigned int body = 0; body < may_sleep.size(); ++body)
       if (sleep.asleep[body] && !may_sleep[body])
         sleep.wake(body);
+    if (sleepers != sleep.asleep)
+      wake_where_loads_are_new(state);
     if (sleepers == sleep.asleep)
       return;
     sleepers = sleep.asleep;
@@ -205,10 +210,56 @@ namespace undine
   }
 
 
+  /// Of those that sleep without having fallen asleep here: a run is resumed, with other loads,
+  /// gravity or materials perhaps.
   template <int dim>
   void
-  SleepingBodies<dim>::make_reduced_models(const State<dim> &state)
+  SleepingBodies<dim>::wake_where_loads_are_new(State<dim> &state) const
   {
+    auto                     &sleep = state.sleep;
+    std::vector<unsigned int> known;
+    for (unsigned int body = 0; body < masses.size(); ++body)
+      if (sleep.asleep[body] && sleep.unbalanced[body] > 0 && (sleepers.empty() || !sleepers[body]))
+        known.push_back(body);
+    if (known.empty())
+      return;
+    const auto now = unbalanced(state, sleep.asleep);
+    for (const unsigned int body : known)
+      if (std::abs(now[body] - sleep.unbalanced[body]) >
+          masses[body] * settings.speed / settings.time)
+        sleep.wake(body);
+  }
+
+
+  /// SleepState::unbalanced of the bodies that sleep.
+  template <int dim>
+  std::vector<double>
+  SleepingBodies<dim>::unbalanced(const State<dim> &state, const std::vector<bool> &asleep) const
+  {
+    const SolidModel<dim>   model(*all.solid, asleep);
+    const PartOfBodies<dim> part_of_all(*all.solid, model);
+    auto                    still = part_of_all.taken_from(state.solid);
+    still.velocity                = 0;
+    auto forces = SolidStepper<dim>(model).unbalanced_forces(still, environment, state.clock.time);
+    for (auto &force : forces)
+      force = std::abs(force);
+    const auto          sums = sums_by_body(model, forces);
+    std::vector<double> result(masses.size(), 0.);
+    for (unsigned int body = 0; body < masses.size(); ++body)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        result[body] += sums[body][axis];
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  SleepingBodies<dim>::make_reduced_models(State<dim> &state)
+  {
+    const auto forces = unbalanced(state, sleepers);
+    for (unsigned int body = 0; body < masses.size(); ++body)
+      if (state.sleep.unbalanced[body] == 0)
+        state.sleep.unbalanced[body] = forces[body];
     part            = std::make_unique<ReducedModels>();
     part->asleep    = std::make_unique<const SolidModel<dim>>(*all.solid, sleepers);
     part->of_asleep = std::make_unique<const PartOfBodies<dim>>(*all.solid, *part->asleep);

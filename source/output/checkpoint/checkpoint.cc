@@ -255,8 +255,9 @@ namespace undine
       unpack_surface(state, models, surface);
       if (!file.contains("history/numbers"))
         state.history = {}; // written by a run of constant steps: the scheme starts a new one
-      if (!file.contains("sleep"))
-        state.sleep = {}; // written by a run in which bodies did not sleep: all are awake
+      if (!file.contains("sleep") ||
+          file.size("sleep")[0] != pack_sleep(state.sleep, communicator).selection.size[0])
+        state.sleep = {}; // of a run without sleep, or of an earlier version: all are awake
       const auto n_rates = pack_budget(state.budget_rates, communicator).selection.size[0];
       if (!file.contains(budget_array) || file.size(budget_array)[0] != n_rates)
         state.budget_rates = {}; // of a run without a budget, or with other effects

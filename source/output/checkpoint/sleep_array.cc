@@ -13,6 +13,7 @@ namespace undine
     for (const bool asleep : sleep.asleep)
       numbers.push_back(asleep ? 1 : 0);
     numbers.insert(numbers.end(), sleep.slow_time.begin(), sleep.slow_time.end());
+    numbers.insert(numbers.end(), sleep.unbalanced.begin(), sleep.unbalanced.end());
     for (const auto &load : sleep.loads)
       numbers.insert(numbers.end(), load.begin_raw(), load.end_raw());
     return numbers_of_first_rank("sleep", numbers, communicator);
@@ -32,6 +33,8 @@ namespace undine
       sleep.asleep[body] = *value++ != 0;
     for (double &slow_time : sleep.slow_time)
       slow_time = *value++;
+    for (double &unbalanced : sleep.unbalanced)
+      unbalanced = *value++;
     for (auto &load : sleep.loads)
       for (unsigned int axis = 0; axis < dim; ++axis)
         load[axis] = *value++;

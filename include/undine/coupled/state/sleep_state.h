@@ -31,8 +31,9 @@ namespace undine
     void
     wake(const unsigned int body)
     {
-      asleep[body]    = false;
-      slow_time[body] = 0;
+      asleep[body]     = false;
+      slow_time[body]  = 0;
+      unbalanced[body] = 0;
     }
 
     /// wake() all bodies.
@@ -66,6 +67,10 @@ namespace undine
     /// Loads of fluid and contact in the nodes of the bodies' surfaces, of those that sleep when
     /// they fell asleep [N]; empty where nothing acts on surfaces.
     std::vector<dealii::Tensor<1, dim>> loads;
+
+    /// [body] Sum over the nodes of what other loads and stresses leave to fluid, contact and
+    /// supports, when it fell asleep [N]; 0: not known yet, or awake.
+    std::vector<double> unbalanced;
   };
 } // namespace undine
 

@@ -342,6 +342,37 @@ check_waking_by_contact()
 }
 
 
+TEST_CASE("a body that sleeps wakes where a run goes on with another load, and else sleeps on",
+          "[sleep][mpi]")
+{
+  const auto bar = [](const std::string &load) {
+    return steps_of(.02) +
+           section("Bodies",
+                   body("bar",
+                        "set Upper corner = 1, .2\nset Cells = 4, 1\nset Density = 1000\n"
+                        "set Young's modulus = 1e6\nset Poisson's ratio = .3\nset Load = 0; " +
+                          load + "\n" + section("Boundaries", boundary("wall", "left", "clamp")))) +
+           section("Effects", sleep(1e-3, .1) + section("damping", "set Mass coefficient = 20"));
+  };
+  CoupledRun<2> run(bar("-1e3"));
+  for (unsigned int n = 0; n < 200 && n_asleep(run) == 0; ++n)
+    run.step();
+  REQUIRE(n_asleep(run) == 1);
+  run.step();
+  const double way = run.column("centre of mass bar y");
+  for (const std::string load : {"-1e3", "-2e3", "1e3"})
+    {
+      INFO(load);
+      CoupledRun<2> resumed(bar(load));
+      resumed.state = run.state;
+      for (unsigned int n = 0; n < 20; ++n)
+        resumed.step();
+      CHECK(n_asleep(resumed) == (load == "-1e3" ? 1 : 0));
+      CHECK((std::abs(resumed.column("centre of mass bar y") - way) > 1e-3) == (load != "-1e3"));
+    }
+}
+
+
 TEST_CASE("contact wakes a body", "[sleep][mpi]")
 {
   check_waking_by_contact<2>();
