@@ -185,8 +185,18 @@ namespace undine
     if (has_pressure_loads(model))
       add(pressure_loads(model, state.step_begin.displacement, begin),
           pressure_loads(model, state.solid.displacement, time));
-    if (solid.reactions.size() > 0)
+    if (solid.reactions.size() > 0 && model.numerics().integrator->has_inertia())
       account.add_power(solid.reactions * state.solid.velocity);
+    else if (solid.reactions.size() > 0) // supports may jump: there is no power
+      {
+        const auto unbalanced =
+          solid_stepper.unbalanced_forces(state.step_begin, surroundings, begin);
+        auto before = model.vector();
+        for (const auto &fixed : model.fixed())
+          before(fixed.dof) = -unbalanced(fixed.dof);
+        before.compress(dealii::VectorOperation::insert);
+        add(before, solid.reactions);
+      }
     if (!surroundings.contact)
       return;
     // What the potential gains as obstacles move and bodies do not, at the end: over all of the

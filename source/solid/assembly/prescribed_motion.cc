@@ -23,14 +23,43 @@ namespace undine
     }
 
 
-    /// dg/dt of second order in the interval.
+    /// The same of `what` is prescribed at `time` [s].
+    template <int dim, class Value>
+    void
+    prescribe(Vector                &vector,
+              const SolidModel<dim> &model,
+              const std::string     &what,
+              const double           time,
+              const Value           &value)
+    {
+      std::string complaint;
+      set_fixed(vector, model, [&](const FixedDof &fixed) {
+        const double result = value(fixed);
+        if (!std::isfinite(result) && complaint.empty())
+          {
+            const auto &body = model.bodies()[fixed.body];
+            complaint = fmt::format("body '{}', boundary '{}': the prescribed {} at {:.6g} s is "
+                                    "not a finite number. Try: another expression, or an "
+                                    "earlier 'Time/End'.",
+                                    body.name,
+                                    body.boundaries[fixed.boundary].name,
+                                    what,
+                                    time);
+          }
+        return result;
+      });
+      throw_together<InputError>(complaint, model.communicator());
+    }
+
+
+    /// dg/dt of second order in the interval, within the step that ends at `time` [s]: motions may
+    /// have a kink there, or no value beyond.
     template <class Function>
     double
     derivative(const Function &g, const double time, const double interval)
     {
-      if (time < interval)
-        return (-3 * g(time) + 4 * g(time + interval) - g(time + 2 * interval)) / (2 * interval);
-      return (g(time + interval) - g(time - interval)) / (2 * interval);
+      const double h = time < 2 * interval ? interval : -interval;
+      return (-3 * g(time) + 4 * g(time + h) - g(time + 2 * h)) / (2 * h);
     }
   } // namespace
 
@@ -39,22 +68,9 @@ namespace undine
   void
   prescribe_displacement(Vector &displacement, const SolidModel<dim> &model, const double time)
   {
-    std::string complaint;
-    set_fixed(displacement, model, [&](const FixedDof &fixed) {
-      const double value = model.prescribed_displacement(fixed, time);
-      if (!std::isfinite(value) && complaint.empty())
-        {
-          const auto &body = model.bodies()[fixed.body];
-          complaint        = fmt::format("body '{}', boundary '{}': the prescribed displacement at "
-                                         "{:.6g} s is not a finite number. Try: another expression, "
-                                         "or an earlier 'Time/End'.",
-                                  body.name,
-                                  body.boundaries[fixed.boundary].name,
-                                  time);
-        }
-      return value;
+    prescribe(displacement, model, "displacement", time, [&](const FixedDof &fixed) {
+      return model.prescribed_displacement(fixed, time);
     });
-    throw_together<InputError>(complaint, model.communicator());
   }
 
 
@@ -68,7 +84,7 @@ namespace undine
     // Short enough for the difference to be exact beside the step's own error, long enough for
     // rounding not to be felt.
     const double interval = 1e-3 * dt;
-    set_fixed(velocity, model, [&](const FixedDof &fixed) {
+    prescribe(velocity, model, "velocity", time, [&](const FixedDof &fixed) {
       return derivative(
         [&](const double t) { return model.prescribed_displacement(fixed, t); }, time, interval);
     });
@@ -83,7 +99,7 @@ namespace undine
                          const double           dt)
   {
     const double interval = 0.02 * dt;
-    set_fixed(acceleration, model, [&](const FixedDof &fixed) {
+    prescribe(acceleration, model, "acceleration", time, [&](const FixedDof &fixed) {
       const auto g        = [&](const double t) { return model.prescribed_displacement(fixed, t); };
       const auto velocity = [&](const double t) { return derivative(g, t, interval); };
       return derivative(velocity, time, interval);

@@ -476,3 +476,28 @@ TEST_CASE("Steps that create energy are redone with shorter ones, with a warning
   CHECK(largest_gain(redone, creations, warnings) < 0.6 * unwatched);
   CHECK(creations > 0);
 }
+
+
+TEST_CASE("A support that jumps puts its work into bodies without inertia", "[energy][mpi]")
+{
+  CoupledRun<2> run(
+    section("Time", "set Step = .1\nset Integrator = static") +
+    section("Bodies",
+            body("bar",
+                 "set Upper corner = 1, .2\nset Cells = 4, 1\nset Density = 1000\n"
+                 "set Young's modulus = 1e6\nset Poisson's ratio = .3\n" +
+                   section("Boundaries",
+                           boundary("wall", "left", "clamp") +
+                             boundary("press",
+                                      "right",
+                                      "prescribed motion",
+                                      "set Displacement = .01 + if(t > .25, .02, 0) - "
+                                      "if(t > .45, .025, 0); 0")))));
+  for (unsigned int n = 0; n < 6; ++n)
+    {
+      run.step();
+      INFO("step " << n);
+      CHECK(run.report.cuts == 0);
+      CHECK(run.report.warnings.empty());
+    }
+}
