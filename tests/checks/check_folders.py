@@ -45,6 +45,44 @@ end
 """
 
 
+BLOCK_AT_REST = """
+set Dimension = 2
+subsection Time
+  set Step = .01
+  set End = 1
+end
+subsection Domain
+  set Cells = 10, 10
+end
+subsection Fluid
+  set Density = 1000
+  subsection Boundaries
+    subsection top
+      set Sides = top
+      set Kind = pressure
+      set Pressure = 0
+    end
+  end
+end
+subsection Bodies
+  subsection block
+    set Shape = box
+    set Lower corner = .33, .32
+    set Upper corner = .69, .68
+    set Cells = 2, 2
+    set Density = 1000
+    set Young's modulus = 1e9
+    set Poisson's ratio = .3
+  end
+end
+subsection Effects
+  subsection gravity
+    set Acceleration = 0, -9.81
+  end
+end
+"""
+
+
 def call(program, *arguments, ranks=1):
     return subprocess.run(scene_tools.command(program, [str(a) for a in arguments], ranks),
                           env=scene_tools.environment(), capture_output=True, text=True, timeout=120)
@@ -229,6 +267,23 @@ def check_failing_probe(program, folder):
     expect("elsewhere it can go on", result.returncode == 0 and steps(results) == list(range(7)), result)
 
 
+def check_other_integrators(program, folder):
+    """A block at rest in a fluid stays so where another integrator goes on, which other rates belong to."""
+    scene, kinds = folder / "rest.prm", ("trapezoid_bdf2", "generalised_alpha", "theta")
+    scene.write_text(BLOCK_AT_REST)
+    for first, second in ((a, b) for a in kinds for b in kinds if a != b):
+        results = folder / f"{first}_{second}"
+        for arguments in ([scene, "--output", results, *settings(f"Time/Integrator={first}", "Time/Maximum steps=5")],
+                          ["resume", results, *settings(f"Time/Integrator={second}", "Time/Maximum steps=8")]):
+            result = call(program, *arguments)
+            expect(f"{first}, then {second}", result.returncode == 0, result)
+        names, _, rows = scene_tools.parse(scene_tools.statistics(results))
+        speeds = [row[names.index("max speed block")] for row in rows]
+        # It rings a little, as the pressure of the fluid makes it smaller.
+        expect(f"{first}, then {second}: nothing sets it in motion: {speeds} m/s",
+               len(speeds) == 9 and max(speeds[6:]) < max(2e-4, 1.1 * max(speeds[:6])))
+
+
 def check_changed_bodies(program, scenes, folder):
     for scene, changes in (("cantilever.prm", ["Bodies/beam/Upper corner=0.5, 0.05, 0.101"]),
                            ("floating_block.prm", ["Bodies/block/Lower corner=0.4, 0.27",
@@ -251,6 +306,7 @@ def main():
         check_changed_bodies(program, scenes, folder)
         check_new_rates(program, folder)
         check_failing_probe(program, folder)
+        check_other_integrators(program, folder)
     print("folders of results: nothing lost, nothing mixed, nothing of others touched")
 
 

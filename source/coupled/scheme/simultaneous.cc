@@ -59,7 +59,6 @@ namespace undine
     initialize(State<dim> &state, const double dt, Report &report) override
     {
       solid_side.initialize(state, dt);
-      solid_side.expect_loads(state);
       Projection<dim> projection(*models.fluid);
       fluid_side.initialize(state, projection, dt, report);
       add_solver_columns(report);

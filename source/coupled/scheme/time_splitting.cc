@@ -39,7 +39,6 @@ namespace undine
     initialize(State<dim> &state, const double dt, Report &report) override
     {
       solid_side.initialize(state, dt);
-      solid_side.expect_loads(state);
       fluid_side.initialize(state, projection, dt, report);
       solid_side.add_columns(report, state, state.clock.time);
     }

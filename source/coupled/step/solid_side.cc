@@ -16,6 +16,7 @@ namespace undine
     , budget(budget)
     , timing(timing)
     , surroundings(models.environment())
+    , is_loaded(models.fluid && models.direction != Direction::body_to_fluid)
     , solid_stepper(model)
   {
     if (budget.is_on())
@@ -28,17 +29,21 @@ namespace undine
   SolidSide<dim>::initialize(State<dim> &state, const double dt) const
   {
     state.solid = solid_stepper.initialize(surroundings, state.clock.time, dt);
+    expect_loads(state.solid);
   }
 
 
+  /// Until it is known how much a fluid loads the bodies, it holds them, as it does those that are
+  /// at rest (T4).
   template <int dim>
   void
-  SolidSide<dim>::expect_loads(State<dim> &state) const
+  SolidSide<dim>::expect_loads(SolidState &solid) const
   {
-    if (!model.numerics().integrator->uses_acceleration())
+    solid.impulse_acceleration.clear();
+    if (!is_loaded || !model.numerics().integrator->uses_acceleration())
       return;
-    state.solid.impulse_acceleration = state.solid.acceleration;
-    state.solid.impulse_acceleration *= -1.;
+    solid.impulse_acceleration = solid.acceleration;
+    solid.impulse_acceleration *= -1.;
   }
 
 
@@ -92,6 +97,13 @@ namespace undine
   void
   SolidSide<dim>::start(State<dim> &state, const Stage &stage) const
   {
+    if (stage.is_first && state.clock.after_fallback &&
+        model.numerics().integrator->uses_acceleration())
+      {
+        state.solid.acceleration =
+          solid_stepper.acceleration(state.solid, surroundings, state.clock.time, stage.duration());
+        expect_loads(state.solid);
+      }
     if (!stage.keeps_rates())
       return;
     state.stage_begin = state.solid;

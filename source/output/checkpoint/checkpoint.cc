@@ -24,7 +24,16 @@ namespace undine
 
     // Version 1 has no geometry and no digest of statistics; before version 6 the nodes of bodies'
     // surfaces were those of the finite elements.
-    constexpr std::uint64_t format_version = 6;
+    constexpr std::uint64_t format_version = 7;
+
+
+    /// What the rates of bodies mean, by a number.
+    template <int dim>
+    std::uint64_t
+    kind_of_rates(const Models<dim> &models)
+    {
+      return models.solid ? models.solid->numerics().integrator->kind_of_rates() : 0;
+    }
 
 
     std::array<fs::path, 2>
@@ -120,6 +129,7 @@ namespace undine
     template <int dim>
     void
     write_slot(const fs::path                &slot,
+               const Models<dim>             &models,
                const std::vector<StateArray> &arrays,
                const Clock                   &clock,
                const std::uint64_t            statistics_digest,
@@ -135,6 +145,7 @@ namespace undine
       file.add_attribute("steps of the longest", std::uint64_t(clock.limit.served));
       file.add_attribute("longest step is doubled", std::uint64_t(clock.limit.is_doubled));
       file.add_attribute("after fallback", std::uint64_t(clock.after_fallback));
+      file.add_attribute("kind of rates", kind_of_rates(models));
       file.add_attribute("statistics digest",
                          dealii::Utilities::MPI::broadcast(communicator, statistics_digest));
       for (const auto &array : arrays)
@@ -243,11 +254,11 @@ namespace undine
       if (is_in_use(state.fluid.volume_rates) && !file.contains(volume_rate_time_array))
         state.fluid.volume_rates = {}; // of a run with another form of convection
       if (state.solid.fluid_loads.size() > 0 && !file.contains(fluid_loads_array))
-        state.solid.fluid_loads = {}; // written by an earlier version
+        state.solid.fluid_loads.clear(); // written by an earlier version
       if (models.solid && file.contains(contact_forces_array))
         state.solid.contact_forces = models.solid->vector();
       if (!file.contains(impulse_acceleration_array))
-        state.solid.impulse_acceleration = {}; // of another integrator, or an earlier version
+        state.solid.impulse_acceleration.clear(); // of another integrator, or an earlier version
       else if (models.solid)
         state.solid.impulse_acceleration = models.solid->vector();
       auto surface = pack_surface(models, state);
@@ -278,6 +289,11 @@ namespace undine
       if (!rates_at_rest.empty())
         state.clock.after_fallback = true; // stages have no rates to go on with, as at the start
       state.fluid.scalar_rates.merge(rates_at_rest);
+      if (version >= 7 && file.attribute<std::uint64_t>("kind of rates") != kind_of_rates(models))
+        {
+          state.clock.after_fallback = true; // of another integrator
+          state.solid.contact_forces.clear();
+        }
       if (is_monitored && !state.account)
         // Of a run without a monitor: nothing is known yet.
         state.account.emplace().energy = std::numeric_limits<double>::quiet_NaN();
@@ -358,7 +374,8 @@ namespace undine
     std::vector<std::string> problems;
     const auto               whole = candidates(problems, directory, communicator);
     const unsigned int       older = whole.empty() ? 0 : 1 - whole.front();
-    write_slot<dim>(slots(directory)[older], arrays, state.clock, statistics_digest, communicator);
+    write_slot(
+      slots(directory)[older], models, arrays, state.clock, statistics_digest, communicator);
   }
 
 

@@ -129,7 +129,7 @@ namespace undine
       put_into(vector, of_these);
     };
     if_known(of_all.fluid_loads, of_part.fluid_loads);
-    of_all.contact_forces = {}; // bodies that sleep have no rates
+    of_all.contact_forces.clear(); // bodies that sleep have no rates
     if_known(of_all.contact_forces, of_part.contact_forces);
     if_known(of_all.impulse_acceleration, of_part.impulse_acceleration);
   }

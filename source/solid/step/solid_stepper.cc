@@ -238,13 +238,21 @@ namespace undine
       environment.contact->check_start(state.displacement, time);
     prescribe_velocity(state.velocity, model, time, dt);
     if (model.numerics().integrator->uses_acceleration())
-      {
-        auto fixed = model.vector();
-        prescribe_acceleration(fixed, model, time, dt);
-        state.acceleration =
-          solve_mass(model, mass_matrix, unbalanced_forces(state, environment, time), fixed);
-      }
+      state.acceleration = acceleration(state, environment, time, dt);
     return state;
+  }
+
+
+  template <int dim>
+  typename SolidStepper<dim>::Vector
+  SolidStepper<dim>::acceleration(const SolidState            &state,
+                                  const SolidEnvironment<dim> &environment,
+                                  const double                 time,
+                                  const double                 dt) const
+  {
+    auto fixed = model.vector();
+    prescribe_acceleration(fixed, model, time, dt);
+    return solve_mass(model, mass_matrix, unbalanced_forces(state, environment, time), fixed);
   }
 
 

@@ -27,6 +27,13 @@ namespace undine
   }
 
 
+  unsigned int
+  TimeIntegrator::kind_of_rates() const
+  {
+    return uses_acceleration() ? 2 : stages(1., RatesAtBegin::known).size() > 1 ? 1 : 0;
+  }
+
+
   double
   TimeIntegrator::acceleration_shift() const
   {

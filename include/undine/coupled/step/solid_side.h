@@ -26,14 +26,10 @@ namespace undine
     void
     initialize(State<dim> &state, double dt) const;
 
-    /// After initialize(), where a fluid will load the bodies: until it is known how much, it holds
-    /// them, as it does those that are at rest (T4).
-    void
-    expect_loads(State<dim> &state) const;
-
     /// The bodies of `state` become those from which the stage of the step from t^n starts, their
     /// values at its begin gone on with the rates that were kept; the budget, if it is on, gets
-    /// their energy and momentum. Does nothing if the stage keeps no rates. Collective.
+    /// their energy and momentum. A stage that keeps no rates needs none, but accelerations anew if
+    /// those of the state are not those of the integrator. Collective.
     void
     start(State<dim> &state, const Stage &stage) const;
 
@@ -91,11 +87,14 @@ namespace undine
     expected_velocity(const State<dim> &state, const Stage &stage, const Vector &forces) const;
     void
     start_contact(State<dim> &state, const Stage &stage) const;
+    void
+    expect_loads(SolidState &solid) const;
 
     const SolidModel<dim>      &model;
     Budget<dim>                &budget;
     TimingTree                 &timing;
     const SolidEnvironment<dim> surroundings;
+    const bool                  is_loaded; ///< by a fluid
     SolidStepper<dim>           solid_stepper;
   };
 } // namespace undine

@@ -65,6 +65,14 @@ namespace undine
     SolidState
     initialize(const SolidEnvironment<dim> &environment, double time, double dt) const;
 
+    /// The acceleration that loads and stresses give at `time` [s], before a step of `dt` [s].
+    /// Collective.
+    Vector
+    acceleration(const SolidState            &state,
+                 const SolidEnvironment<dim> &environment,
+                 double                       time,
+                 double                       dt) const;
+
     /// From `time` to `time + dt` [s]. `nodal_forces` [N], if not empty, act during the whole step
     /// (SolidEquations, also for `contact` and `begin`). Collective. Throws SolveError; the state
     /// is then unchanged.

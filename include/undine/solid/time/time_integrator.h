@@ -101,6 +101,11 @@ namespace undine
     virtual bool
     uses_acceleration() const;
 
+    /// The same number for integrators that can go on with what others have left of rates and
+    /// accelerations.
+    unsigned int
+    kind_of_rates() const;
+
     /// Where a motion is prescribed, a^{n+1} is its acceleration at the time to which the
     /// integrator's a belongs, t^{n+1} + shift h; returns the shift [1].
     virtual double
