@@ -180,6 +180,7 @@ namespace undine
     ask_probes_at_start(Report           &report,
                         const State<dim> &state,
                         const Scene<dim> &scene,
+                        const Options    &options,
                         TimingTree       &timing)
     {
       try
@@ -188,9 +189,9 @@ namespace undine
         }
       catch (const SolveError &error)
         {
-          throw InputError(error.what());
+          throw InputError(options.file().name() + ": " + error.what());
         }
-      assert_different_names(state.clock, report);
+      assert_different_names(state.clock, report, options.file().name());
     }
 
 
@@ -205,7 +206,7 @@ namespace undine
       try
         {
           auto report = scene.scheme->initialize(state, scene.models, timing);
-          ask_probes_at_start(report, state, scene, timing);
+          ask_probes_at_start(report, state, scene, options, timing);
           const auto complaint =
             undefined_values(options, state.clock.time, scene.models.communicator());
           if (!complaint.empty())

@@ -19,13 +19,13 @@ namespace undine
 
 
   void
-  assert_different_names(const Clock &clock, const Report &report)
+  assert_different_names(const Clock &clock, const Report &report, const std::string &scene)
   {
     std::set<std::string> names;
     for (const auto &columns : {columns_of_step(clock, report), report.columns})
       for (const auto &column : columns)
         if (!names.insert(column.name).second)
-          throw InputError("two columns of 'statistics' would be named '" + column.name +
+          throw InputError(scene + ": two columns of 'statistics' would be named '" + column.name +
                            "'. Try: another name for the probe, body, boundary or scalar that is "
                            "named so.");
   }

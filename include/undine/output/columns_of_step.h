@@ -5,15 +5,18 @@
 #include <undine/base/core/clock.h>
 #include <undine/coupled/state/report.h>
 
+#include <string>
+
 namespace undine
 {
   /// The columns with which a row of the file `statistics` begins: when, and how the step went.
   Columns
   columns_of_step(const Clock &clock, const Report &report);
 
-  /// Throws InputError if two columns of that file had the same name.
+  /// Throws InputError if two columns of that file had the same name. `scene`: the name of its
+  /// file.
   void
-  assert_different_names(const Clock &clock, const Report &report);
+  assert_different_names(const Clock &clock, const Report &report, const std::string &scene);
 } // namespace undine
 
 #endif

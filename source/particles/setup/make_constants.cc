@@ -45,6 +45,18 @@ namespace undine::particles
       return speed_square > 0 ? setup.numerics.wave_share * setup.spacing / std::sqrt(speed_square)
                               : 0;
     }
+
+
+    /// The longest sub-step in which what falls from rest crosses no more of the spacing than what
+    /// is fast may [s]; 0 if nothing falls.
+    template <int dim>
+    double
+    longest_by_fall(const Setup<dim> &setup)
+    {
+      const double largest = std::sqrt(norm_square(setup.gravity)) +
+                             setup.attraction * std::sqrt(norm_square(setup.upper - setup.lower));
+      return largest > 0 ? std::sqrt(2 * setup.numerics.speed_share * setup.spacing / largest) : 0;
+    }
   } // namespace
 
 
@@ -163,9 +175,10 @@ namespace undine::particles
     const double l0       = setup.spacing;
     const double spread   = full_lattice(dim, numerics.reach).spread * l0 * l0;
     StepBounds   bounds;
-    bounds.asked    = numerics.largest_sub_step > 0 ? numerics.largest_sub_step
-                                                    : std::numeric_limits<double>::max();
-    bounds.waves    = longest_by_waves(setup);
+    bounds.asked = numerics.largest_sub_step > 0 ? numerics.largest_sub_step
+                                                 : std::numeric_limits<double>::max();
+    // Waves of a fluid are faster than what falls.
+    bounds.waves    = setup.has_fluid ? longest_by_waves(setup) : longest_by_fall(setup);
     double lightest = setup.fluid_density;
     for (const auto &body : setup.bodies)
       lightest = std::min(lightest, body.density);

@@ -90,6 +90,29 @@ TEMPLATE_TEST_CASE_SIG(
 }
 
 
+TEMPLATE_TEST_CASE_SIG("A ball released at rest meets a wall within one long frame",
+                       "[particles]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  ParticleScene<dim> scene(l0);
+  scene.setup.has_fluid = false;
+  scene.setup.gravity   = along<dim>(dim - 1, -9.81);
+  Point<dim> centre;
+  for (int axis = 0; axis < dim; ++axis)
+    centre[axis] = 6 * l0;
+  centre[dim - 1] = 7.2 * l0;
+  add_ball(scene, centre, 4 * l0, Point<dim>::zero());
+  scene.add_tank(cube<dim>(12), 10);
+  const auto   engine = scene.engine();
+  const double before = energy(engine->balance());
+  engine->advance(.1); // it could fall by five spacings
+  CHECK(energy(engine->balance()) < before + 1e-3 * std::abs(before));
+  CHECK(engine->balance().body_centres[0][dim - 1] > 3 * l0);
+}
+
+
 TEMPLATE_TEST_CASE_SIG(
   "A ball that falls on a wall stays above it", "[particles]", ((int dim), dim), 2, 3)
 {

@@ -16,7 +16,7 @@ namespace undine::particles
   {
     asked,     ///< the largest sub-step that the scene allows, or the frame
     speed,     ///< nothing may cross more than a share of the spacing
-    waves,     ///< nor may gravity waves
+    waves,     ///< nor may gravity waves, or what falls from rest
     viscosity, ///< explicit friction
     count
   };
@@ -36,7 +36,7 @@ namespace undine::particles
   struct StepBounds
   {
     double asked       = 0; ///< largest
-    double waves       = 0; ///< share of l0 / sqrt(g H); 0: none
+    double waves       = 0; ///< share of l0 / sqrt(g H), or of a fall from rest; 0: none
     double viscosity   = 0; ///< share of l0^2 / nu; 0: none
     double speed_share = 0; ///< of l0 that the fastest particle may cross [m]
     /// c_p / l0 of the fastest body at rest, more with damping [1/s]; 0: no bodies.
@@ -118,7 +118,7 @@ namespace undine::particles
           return;
         }
       Bound        bound = Bound::asked;
-      const double dt    = largest(speed, bound) / c.shortening;
+      const double dt    = minimum(largest(speed, bound), c.frame) / c.shortening;
       const double parts = ceil(left / dt * (1 - 1e-9)); // equal parts land on the frame's end
       c.dt               = parts > 1 ? left / parts : left;
       c.elapsed          = parts > 1 ? c.elapsed + c.dt : c.frame;
