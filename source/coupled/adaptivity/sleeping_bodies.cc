@@ -187,15 +187,14 @@ namespace undine
       {
         sleep.asleep.assign(masses.size(), false);
         sleep.slow_time.assign(masses.size(), 0.);
-        sleep.unbalanced.assign(masses.size(), 0.);
+        sleep.unbalanced.assign(masses.size(), sleep.unknown);
         sleep.loads.assign(surface ? surface->n_nodes() : 0, {});
       }
     // A scene may have been changed before it was resumed.
     for (unsigned int body = 0; body < may_sleep.size(); ++body)
       if (sleep.asleep[body] && !may_sleep[body])
         sleep.wake(body);
-    if (sleepers != sleep.asleep)
-      wake_where_loads_are_new(state);
+    compare_loads(state);
     if (sleepers == sleep.asleep)
       return;
     sleepers = sleep.asleep;
@@ -210,23 +209,27 @@ namespace undine
   }
 
 
-  /// Of those that sleep without having fallen asleep here: a run is resumed, with other loads,
-  /// gravity or materials perhaps.
+  /// What is out of balance is noted of those that have just fallen asleep. Those that sleep
+  /// without having fallen asleep here wake where it has changed: a run is resumed, with other
+  /// loads, gravity or materials perhaps.
   template <int dim>
   void
-  SleepingBodies<dim>::wake_where_loads_are_new(State<dim> &state) const
+  SleepingBodies<dim>::compare_loads(State<dim> &state) const
   {
     auto                     &sleep = state.sleep;
-    std::vector<unsigned int> known;
+    std::vector<unsigned int> asked;
     for (unsigned int body = 0; body < masses.size(); ++body)
-      if (sleep.asleep[body] && sleep.unbalanced[body] > 0 && (sleepers.empty() || !sleepers[body]))
-        known.push_back(body);
-    if (known.empty())
+      if (sleep.asleep[body] &&
+          (sleep.unbalanced[body] == sleep.unknown || sleepers.empty() || !sleepers[body]))
+        asked.push_back(body);
+    if (asked.empty())
       return;
     const auto now = unbalanced(state, sleep.asleep);
-    for (const unsigned int body : known)
-      if (std::abs(now[body] - sleep.unbalanced[body]) >
-          masses[body] * settings.speed / settings.time)
+    for (const unsigned int body : asked)
+      if (sleep.unbalanced[body] == sleep.unknown)
+        sleep.unbalanced[body] = now[body];
+      else if (std::abs(now[body] - sleep.unbalanced[body]) >
+               masses[body] * settings.speed / settings.time)
         sleep.wake(body);
   }
 
@@ -254,12 +257,8 @@ namespace undine
 
   template <int dim>
   void
-  SleepingBodies<dim>::make_reduced_models(State<dim> &state)
+  SleepingBodies<dim>::make_reduced_models(const State<dim> &state)
   {
-    const auto forces = unbalanced(state, sleepers);
-    for (unsigned int body = 0; body < masses.size(); ++body)
-      if (state.sleep.unbalanced[body] == 0)
-        state.sleep.unbalanced[body] = forces[body];
     part            = std::make_unique<ReducedModels>();
     part->asleep    = std::make_unique<const SolidModel<dim>>(*all.solid, sleepers);
     part->of_asleep = std::make_unique<const PartOfBodies<dim>>(*all.solid, *part->asleep);
@@ -351,7 +350,8 @@ namespace undine
       }
     part->of_asleep->put_into(state.solid.velocity, model.vector());
     auto acceleration = model.vector();
-    if (state.solid.impulse_acceleration.size() > 0)
+    if (state.solid.impulse_acceleration.size() > 0 &&
+        model.numerics().integrator->uses_acceleration())
       {
         // What loads and stresses would bring, fluid and contact take back (T4).
         auto still     = part->of_asleep->taken_from(state.solid);

@@ -201,12 +201,16 @@ namespace undine
       account.add_power(solid.reactions * state.solid.velocity);
     else if (solid.reactions.size() > 0) // supports may jump: there is no power
       {
-        const auto unbalanced =
-          solid_stepper.unbalanced_forces(state.step_begin, surroundings, begin);
-        auto before = model.vector();
-        for (const auto &fixed : model.fixed())
-          before(fixed.dof) = -unbalanced(fixed.dof);
-        before.compress(dealii::VectorOperation::insert);
+        auto before = solid.reactions;
+        if (!is_loaded && !surroundings.contact) // else what they were at the begin is not known
+          {
+            auto still            = state.step_begin;
+            still.velocity        = 0;
+            const auto unbalanced = solid_stepper.unbalanced_forces(still, surroundings, begin);
+            for (const auto &fixed : model.fixed())
+              before(fixed.dof) = -unbalanced(fixed.dof);
+            before.compress(dealii::VectorOperation::insert);
+          }
         add(before, solid.reactions);
       }
     if (!surroundings.contact)

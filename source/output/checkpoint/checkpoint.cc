@@ -293,6 +293,7 @@ namespace undine
         {
           state.clock.after_fallback = true; // of another integrator
           state.solid.contact_forces.clear();
+          state.solid.impulse_acceleration.clear();
         }
       if (is_monitored && !state.account)
         // Of a run without a monitor: nothing is known yet.

@@ -132,6 +132,8 @@ namespace undine
     of_all.contact_forces.clear(); // bodies that sleep have no rates
     if_known(of_all.contact_forces, of_part.contact_forces);
     if_known(of_all.impulse_acceleration, of_part.impulse_acceleration);
+    if (of_part.impulse_acceleration.size() == 0 && of_all.impulse_acceleration.size() > 0)
+      put_into(of_all.impulse_acceleration, part.vector()); // those that sleep keep theirs
   }
 
 

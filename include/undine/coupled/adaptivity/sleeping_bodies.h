@@ -74,11 +74,11 @@ namespace undine
     void
     choose(State<dim> &state);
     void
-    wake_where_loads_are_new(State<dim> &state) const;
+    compare_loads(State<dim> &state) const;
     std::vector<double>
     unbalanced(const State<dim> &state, const std::vector<bool> &asleep) const;
     void
-    make_reduced_models(State<dim> &state);
+    make_reduced_models(const State<dim> &state);
     void
     keep_still(const State<dim> &state);
     std::shared_ptr<const SolidMeasures<dim>>

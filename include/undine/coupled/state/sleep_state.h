@@ -33,7 +33,7 @@ namespace undine
     {
       asleep[body]     = false;
       slow_time[body]  = 0;
-      unbalanced[body] = 0;
+      unbalanced[body] = unknown;
     }
 
     /// wake() all bodies.
@@ -58,6 +58,8 @@ namespace undine
       return any;
     }
 
+    static constexpr double unknown = -1;
+
     bool settled     = true;       ///< false: some that sleep still have a velocity
     bool begins_anew = false;      ///< the next step, without rates of the last one: some that fell
                                    ///< asleep in it were in contact
@@ -69,7 +71,7 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>> loads;
 
     /// [body] Sum over the nodes of what other loads and stresses leave to fluid, contact and
-    /// supports, when it fell asleep [N]; 0: not known yet, or awake.
+    /// supports, when it fell asleep [N]; `unknown` of those that are awake.
     std::vector<double> unbalanced;
   };
 } // namespace undine

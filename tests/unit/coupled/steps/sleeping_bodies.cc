@@ -373,6 +373,38 @@ TEST_CASE("a body that sleeps wakes where a run goes on with another load, and e
 }
 
 
+TEST_CASE("what is awake flies on after contact as if nobody slept", "[sleep][mpi]")
+{
+  const auto ball = [](const std::string &name, const std::string &centre, const double velocity) {
+    return body(name,
+                fmt::format("set Shape = ball\nset Radius = .1\nset Centre = {}\n"
+                            "set Initial velocity = {}; 0\nset Density = 1000\n"
+                            "set Young's modulus = 2e4\nset Poisson's ratio = .3\n"
+                            "set Refinements = 1\n",
+                            centre,
+                            velocity));
+  };
+  const std::string scene =
+    section("Time",
+            "set Step = .01\nset Integrator = generalised_alpha\n"
+            "set Spectral radius = 0") +
+    section("Bodies",
+            ball("fast", "-.2, 0", 1) + ball("target", ".1, 0", 0) + ball("asleep", "0, 2", 0));
+  CoupledRun<2> run(scene + section("Effects", section("contact", "") + sleep(1e-3, .03)));
+  CoupledRun<2> awake(scene + section("Effects", section("contact", "")));
+  for (unsigned int n = 0; n < 50; ++n)
+    {
+      run.step();
+      awake.step();
+    }
+  CHECK(run.column("asleep asleep") == 1);
+  CHECK(awake.column("max speed target") > .5);
+  for (const std::string name : {"fast", "target"})
+    CHECK(run.column("centre of mass " + name + " x") ==
+          Approx(awake.column("centre of mass " + name + " x")).epsilon(1e-3));
+}
+
+
 TEST_CASE("contact wakes a body", "[sleep][mpi]")
 {
   check_waking_by_contact<2>();
