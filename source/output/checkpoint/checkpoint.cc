@@ -228,6 +228,35 @@ namespace undine
     }
 
 
+    /// Loads and rates that a run may have or not become those that the slot has, yet to be read.
+    template <int dim>
+    void
+    expect_loads_of(State<dim> &state, const Models<dim> &models, const HDF5Reader &file)
+    {
+      if (is_in_use(state.fluid.volume_rates) && !file.contains(volume_rate_time_array))
+        state.fluid.volume_rates = {}; // of a run with another form of convection
+      if (state.solid.fluid_loads.size() > 0 && !file.contains(fluid_loads_array))
+        state.solid.fluid_loads.clear(); // written by an earlier version
+      if (models.solid && file.contains(contact_forces_array))
+        state.solid.contact_forces = models.solid->vector();
+      if (!file.contains(impulse_acceleration_array))
+        state.solid.impulse_acceleration.clear(); // of another integrator, or an earlier version
+      else if (models.solid)
+        state.solid.impulse_acceleration = models.solid->vector();
+    }
+
+
+    /// They belong to another integrator.
+    template <int dim>
+    void
+    forget_rates(State<dim> &state)
+    {
+      state.clock.after_fallback = true;
+      state.solid.contact_forces.clear();
+      state.solid.impulse_acceleration.clear();
+    }
+
+
     /// `state` with the values, the time and the step of a slot.
     template <int dim>
     State<dim>
@@ -251,16 +280,7 @@ namespace undine
       const auto lasting = count_lasting_particles(state.particles); // of the scene
       if (models.particles)
         resize_particles(state.particles, models.particles->setup().spacing, file);
-      if (is_in_use(state.fluid.volume_rates) && !file.contains(volume_rate_time_array))
-        state.fluid.volume_rates = {}; // of a run with another form of convection
-      if (state.solid.fluid_loads.size() > 0 && !file.contains(fluid_loads_array))
-        state.solid.fluid_loads.clear(); // written by an earlier version
-      if (models.solid && file.contains(contact_forces_array))
-        state.solid.contact_forces = models.solid->vector();
-      if (!file.contains(impulse_acceleration_array))
-        state.solid.impulse_acceleration.clear(); // of another integrator, or an earlier version
-      else if (models.solid)
-        state.solid.impulse_acceleration = models.solid->vector();
+      expect_loads_of(state, models, file);
       auto surface = pack_surface(models, state);
       read_arrays(surface, file, slot, communicator);
       unpack_surface(state, models, surface);
@@ -290,11 +310,7 @@ namespace undine
         state.clock.after_fallback = true; // stages have no rates to go on with, as at the start
       state.fluid.scalar_rates.merge(rates_at_rest);
       if (version >= 7 && file.attribute<std::uint64_t>("kind of rates") != kind_of_rates(models))
-        {
-          state.clock.after_fallback = true; // of another integrator
-          state.solid.contact_forces.clear();
-          state.solid.impulse_acceleration.clear();
-        }
+        forget_rates(state);
       if (is_monitored && !state.account)
         // Of a run without a monitor: nothing is known yet.
         state.account.emplace().energy = std::numeric_limits<double>::quiet_NaN();

@@ -35,6 +35,23 @@ namespace
   }
 
 
+  /// In a dry tank, its centre `height` [m] above the floor, with a downward `speed` [m/s].
+  template <int dim>
+  ParticleScene<dim>
+  falling_ball(const double height, const double speed)
+  {
+    ParticleScene<dim> scene(l0);
+    scene.setup.has_fluid = false;
+    scene.setup.gravity   = along<dim>(dim - 1, -9.81);
+    Point<dim> centre;
+    for (int axis = 0; axis < dim; ++axis)
+      centre[axis] = axis == dim - 1 ? height : 6 * l0;
+    add_ball(scene, centre, 4 * l0, along<dim>(dim - 1, -speed));
+    scene.add_tank(cube<dim>(12), 10);
+    return scene;
+  }
+
+
   /// Between particles that are not of one body [m].
   template <int dim>
   double
@@ -96,15 +113,7 @@ TEMPLATE_TEST_CASE_SIG("A ball released at rest meets a wall within one long fra
                        2,
                        3)
 {
-  ParticleScene<dim> scene(l0);
-  scene.setup.has_fluid = false;
-  scene.setup.gravity   = along<dim>(dim - 1, -9.81);
-  Point<dim> centre;
-  for (int axis = 0; axis < dim; ++axis)
-    centre[axis] = 6 * l0;
-  centre[dim - 1] = 7.2 * l0;
-  add_ball(scene, centre, 4 * l0, Point<dim>::zero());
-  scene.add_tank(cube<dim>(12), 10);
+  const auto   scene  = falling_ball<dim>(7.2 * l0, 0);
   const auto   engine = scene.engine();
   const double before = energy(engine->balance());
   engine->advance(.1); // it could fall by five spacings
@@ -116,14 +125,7 @@ TEMPLATE_TEST_CASE_SIG("A ball released at rest meets a wall within one long fra
 TEMPLATE_TEST_CASE_SIG(
   "A ball that falls on a wall stays above it", "[particles]", ((int dim), dim), 2, 3)
 {
-  ParticleScene<dim> scene(l0);
-  scene.setup.has_fluid = false;
-  scene.setup.gravity   = along<dim>(dim - 1, -9.81);
-  Point<dim> centre;
-  for (int axis = 0; axis < dim; ++axis)
-    centre[axis] = 6 * l0;
-  add_ball(scene, centre, 4 * l0, along<dim>(dim - 1, -1.));
-  scene.add_tank(cube<dim>(12), 10);
+  const auto         scene  = falling_ball<dim>(6 * l0, 1);
   const auto         engine = scene.engine();
   const double       before = energy(engine->balance());
   ParticleState<dim> state;
