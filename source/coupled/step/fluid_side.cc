@@ -406,7 +406,7 @@ namespace undine
                               const double      time) const
   {
     const auto &fluid = state.fluid;
-    append(report.columns, fluid_columns(model, fluid, divergence));
+    append(report.columns, fluid_columns(model, fluid, environment.gravity, divergence));
     for (const auto &effect : models.effects)
       append(report.columns, effect->columns(model, fluid, time));
     if (cut)

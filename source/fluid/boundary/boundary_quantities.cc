@@ -161,7 +161,9 @@ namespace undine
 
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
-  pressure_forces(const BoundaryMap<dim> &boundaries, const FluidState<dim> &state)
+  pressure_forces(const BoundaryMap<dim>       &boundaries,
+                  const FluidState<dim>        &state,
+                  const dealii::Tensor<1, dim> &weight)
   {
     const auto                         &grid = boundaries.grid();
     std::vector<dealii::Tensor<1, dim>> forces(boundaries.all().size());
@@ -174,13 +176,17 @@ namespace undine
       const auto         whole = [&](const GridIndex<dim> &index) {
         return !open || open->cells.kind(index) == SubLattice<dim>::Kind::whole;
       };
-      auto &force = forces[boundaries.number(side, cell)][axis];
+      auto      &force = forces[boundaries.number(side, cell)][axis];
+      const auto face  = moved<dim>(cell, axis, side.end);
       if (!whole(cell))
         {
-          const auto face = moved<dim>(cell, axis, side.end);
           for (int k = open->faces[axis].first(face); k < open->faces[axis].last(face); ++k)
-            force += side.sign() * open->faces[axis].all()[k].measure *
-                     value_at(pressure, end_of_piece(*open, axis, k, 1 - side.end));
+            {
+              const auto &piece = open->faces[axis].all()[k];
+              force += side.sign() * piece.measure *
+                       (value_at(pressure, end_of_piece(*open, axis, k, 1 - side.end)) +
+                        weight * piece.place);
+            }
           return;
         }
       double on_wall = pressure(cell);
@@ -190,7 +196,8 @@ namespace undine
           on_wall += (pressure(cell) - pressure(next)) * grid.cell_width(axis, cell[axis]) / 2 /
                      grid.dual_width(axis, plane);
         }
-      force += side.sign() * on_wall * grid.face_area(axis, cell);
+      force += side.sign() * (on_wall + weight * grid.faces(axis)->point(face)) *
+               grid.face_area(axis, cell);
     });
     return sum_over_ranks(forces, grid.communicator());
   }
@@ -258,8 +265,8 @@ namespace undine
 #define INSTANTIATE(dim)                                                                            \
   template std::vector<double> boundary_fluxes(const BoundaryMap<dim> &, const Velocity<dim> &);    \
   template std::string         net_flux_complaint(const BoundaryMap<dim> &, const Velocity<dim> &); \
-  template std::vector<dealii::Tensor<1, dim>> pressure_forces(const BoundaryMap<dim> &,            \
-                                                               const FluidState<dim> &);            \
+  template std::vector<dealii::Tensor<1, dim>> pressure_forces(                                     \
+    const BoundaryMap<dim> &, const FluidState<dim> &, const dealii::Tensor<1, dim> &);             \
   template std::vector<dealii::Tensor<1, dim>> viscous_forces(                                      \
     const BoundaryMap<dim> &, const FluidState<dim> &, const double, const double);                 \
   template Columns force_columns(                                                                   \

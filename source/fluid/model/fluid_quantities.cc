@@ -257,7 +257,10 @@ namespace undine
 
   template <int dim>
   Columns
-  fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state, const double divergence)
+  fluid_columns(const FluidModel<dim>        &model,
+                const FluidState<dim>        &state,
+                const dealii::Tensor<1, dim> &gravity,
+                const double                  divergence)
   {
     Columns    columns{{"Fluid kinetic energy", "J", kinetic_energy(model, state.velocity)},
                     {"Fluid largest speed", "m/s", largest_speed(model, state.velocity)},
@@ -270,8 +273,10 @@ namespace undine
           columns.push_back(
             {"Flux through " + boundary.name, "m^" + std::to_string(dim) + "/s", fluxes[b]});
       }
-    const auto forces = force_columns(
-      "Pressure force", model.boundaries(), pressure_forces(model.boundaries(), state));
+    const auto forces =
+      force_columns("Pressure force",
+                    model.boundaries(),
+                    pressure_forces(model.boundaries(), state, model.density() * gravity));
     columns.insert(columns.end(), forces.begin(), forces.end());
     return columns;
   }
@@ -289,7 +294,10 @@ namespace undine
                                                      const Velocity<dim> &);                       \
   template double                 largest_speed(const FluidModel<dim> &, const Velocity<dim> &);   \
   template double                 integral(const FluidModel<dim> &, const Field<dim> &);           \
-  template Columns fluid_columns(const FluidModel<dim> &, const FluidState<dim> &, const double);
+  template Columns                fluid_columns(const FluidModel<dim> &,                           \
+                                                const FluidState<dim> &,                           \
+                                                const dealii::Tensor<1, dim> &,                    \
+                                                const double);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

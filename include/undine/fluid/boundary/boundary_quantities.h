@@ -27,12 +27,14 @@ namespace undine
   std::string
   net_flux_complaint(const BoundaryMap<dim> &boundaries, const Velocity<dim> &velocity);
 
-  /// Integral of p n over each boundary, n out of the fluid: the force of the (reduced) pressure on
-  /// it, [N]. The pressure is continued linearly from the two nearest cells, but not next to
-  /// bodies.
+  /// Integral of (p + weight.x) n over each boundary, n out of the fluid: the force of the pressure
+  /// on it, [N], where p is reduced by that of the fluid's own `weight`, rho g [N/m^dim]. The
+  /// reduced pressure is continued linearly from the two nearest cells, but not next to bodies.
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
-  pressure_forces(const BoundaryMap<dim> &boundaries, const FluidState<dim> &state);
+  pressure_forces(const BoundaryMap<dim>       &boundaries,
+                  const FluidState<dim>        &state,
+                  const dealii::Tensor<1, dim> &weight);
 
   /// Friction of a fluid of the given dynamic viscosity [Pa s] on each boundary, [N].
   template <int dim>

@@ -62,13 +62,14 @@ namespace undine
   double
   integral(const FluidModel<dim> &model, const Field<dim> &scalar);
 
-  /// The columns of the fluid for the file `statistics`; `divergence` [1] as the projection left
-  /// it.
+  /// The columns of the fluid for the file `statistics`; `gravity` [m/s^2] is what its pressure is
+  /// reduced by, `divergence` [1] as the projection left it.
   template <int dim>
   Columns
-  fluid_columns(const FluidModel<dim> &model,
-                const FluidState<dim> &state,
-                const double           divergence);
+  fluid_columns(const FluidModel<dim>        &model,
+                const FluidState<dim>        &state,
+                const dealii::Tensor<1, dim> &gravity,
+                const double                  divergence);
   /// @}
 } // namespace undine
 

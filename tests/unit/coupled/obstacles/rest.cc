@@ -65,6 +65,23 @@ namespace
   }
 
 
+  /// Where walls and bodies are all around a fluid at rest, they carry its weight.
+  template <int dim>
+  void
+  check_that_all_carry_the_fluid(const ObstacleRun<dim> &run, const dealii::Tensor<1, dim> &gravity)
+  {
+    auto one = run.state.fluid.pressure;
+    for_each_unplaced_value(one, [](double &value) { value = 1; });
+    const auto             weight = fluid_density * integral(*run.models.fluid, one) * gravity;
+    dealii::Tensor<1, dim> carried;
+    for (const std::string &wall : {"lid", "other sides"})
+      carried += run.column_vector("Pressure force on " + wall + ",");
+    for (const auto &name : run.surface().body_names())
+      carried += run.column_vector("pressure force " + name);
+    CHECK((carried - weight).norm() <= 1e-12 * weight.norm());
+  }
+
+
   template <int dim>
   void
   check_rest(const std::string &kind_of_top, const std::string &more_domain = "")
@@ -117,6 +134,8 @@ namespace
         CHECK(error.norm() <=
               1e-12 * fluid_density * acceleration * std::max(volumes[b], 2.3 * .05));
       }
+    if (kind_of_top == "slip wall")
+      check_that_all_carry_the_fluid(run, gravity);
   }
 } // namespace
 
