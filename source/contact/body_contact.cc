@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/base/options/point_text.h>
 #include <undine/contact/body_contact.h>
 #include <undine/contact/collision_free_fraction.h>
 #include <undine/contact/domain_walls.h>
@@ -311,6 +312,35 @@ namespace undine
         overlap + " at the start",
         "Try: leave a gap, or fix the body there by a support that reaches to the wall or into "
         "the other surface: what is fixed so is not in contact.");
+  }
+
+
+  template <int dim>
+  std::string
+  BodyContact<dim>::note_of_start(const Vector &displacement, const double time) const
+  {
+    const auto places = surfaces.positions(displacement, time);
+    const auto found  = terms(places);
+    if (found.empty())
+      return "";
+    const auto &closest =
+      *std::min_element(found.begin(), found.end(), [](const auto &one, const auto &other) {
+        return one.distance < other.distance;
+      });
+    const auto name_of = [&](const unsigned int node) {
+      return "'" + surfaces.surface().body_names()[surfaces.surface_of_node(node)] + "'";
+    };
+    const bool is_wall = closest.wall != ContactTerm<dim>::no_wall;
+    return fmt::format("{} is {:.3g} m from {} near {}, where contact acts within {:.3g} m: it "
+                       "pushes from the start, "
+                       "with an energy of {:.3g} J. Unless that is meant, leave a larger gap",
+                       name_of(closest.nodes[0]),
+                       closest.distance,
+                       is_wall ? "wall '" + surfaces.walls()[closest.wall].name + "'"
+                               : name_of(closest.nodes[closest.n - 1]),
+                       text_of(places[closest.nodes[0]]),
+                       closest.activation_distance,
+                       energy(found, places));
   }
 
 

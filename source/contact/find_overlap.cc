@@ -32,7 +32,7 @@ namespace undine
             const auto        &plane = surfaces.walls()[wall];
             const unsigned int body  = surfaces.surface_of_node(node);
             if (surfaces.meets_wall(node, wall) &&
-                !((places[node] - plane.point) * plane.normal > 0))
+                !((places[node] - plane.point) * plane.normal > surfaces.rounding()))
               return fmt::format("body '{}' is not on the free side of wall '{}' at {}",
                                  surfaces.surface().body_names()[body],
                                  plane.name,
@@ -134,7 +134,8 @@ namespace undine
     for (unsigned int surface = 0; surface < nodes.size(); ++surface)
       {
         std::vector<unsigned int> inside; // of the box
-        const auto                box = box_of(nodes[surface], places);
+        auto                      box = box_of(nodes[surface], places);
+        box.extend(std::max(-depth, 0.));
         for (unsigned int other = 0; other < nodes.size(); ++other)
           if (other != surface && counts(surface, other))
             std::copy_if(nodes[other].begin(),
@@ -161,10 +162,13 @@ namespace undine
     std::string complaint = wall_complaint(surfaces, places);
     if (!complaint.empty())
       return complaint;
-    const auto overlap = find_surfaces_that_overlap<dim>(
-      surfaces, places, 0, [&](const unsigned int surface, const unsigned int other) {
-        return surfaces.meet(surface, other);
-      });
+    const auto overlap =
+      find_surfaces_that_overlap<dim>(surfaces,
+                                      places,
+                                      -surfaces.rounding(),
+                                      [&](const unsigned int surface, const unsigned int other) {
+                                        return surfaces.meet(surface, other);
+                                      });
     if (overlap)
       return fmt::format("'{}' overlaps '{}' at {}",
                          surfaces.surface().body_names()[surfaces.surface_of_node(overlap->node)],

@@ -23,7 +23,7 @@ namespace undine
       Rules(const Models<dim> &models, const Extremes &largest)
         : models(models)
         , largest(largest)
-        , gravity(models.environment().gravity.norm())
+        , gravity(models.requests_of_effects().gravity.norm())
       {
       }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/operators/flow_past_edges.h>
 #include <undine/operators/make_no_slip_surfaces.h>
 #include <undine/operators/wall_contacts.h>
 
@@ -15,7 +16,7 @@ namespace undine
                      const unsigned int      axis)
     {
       const auto                  &divided = parts.open->faces[axis];
-      const PieceShapes<dim>       none;
+      const NoSlipSurfaces<dim>    none;
       const FaceLinks<dim>         links(grid, axis, *parts.open, none);
       std::vector<PieceShape<dim>> result(divided.all().size());
       std::vector<double>          values(result.size());
@@ -54,7 +55,10 @@ namespace undine
   {
     NoSlipSurfaces<dim> walls;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      walls.shapes[axis] = shapes_of_pieces(grid, cut, parts, axis);
+      {
+        walls.shapes[axis]     = shapes_of_pieces(grid, cut, parts, axis);
+        walls.past_edges[axis] = flow_past_edges(grid, cut, parts, placed, axis);
+      }
     WallContacts<dim> contacts(grid, cut, parts, placed, walls);
     for (unsigned int axis = 0; axis < dim; ++axis)
       contacts.add_of_faces(axis);

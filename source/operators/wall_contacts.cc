@@ -32,7 +32,7 @@ namespace undine
     , open(*parts.open)
     , placed(placed)
     , surfaces(surfaces)
-    , meetings(grid, cut, parts, surfaces.shapes, placed)
+    , meetings(grid, cut, parts, surfaces, placed)
   {
   }
 
@@ -137,13 +137,14 @@ namespace undine
   }
 
 
-  /// Half the width of the cell.
+  /// Half the width of the cell, or of what passes an edge.
   template <int dim>
   double
   WallContacts<dim>::least_of_extensions(const View &view, const Wall &wall) const
   {
-    const unsigned int d = main_direction(view.axis, wall.area);
-    return grid.cell_width(d, view.piece.face[d]) / 2;
+    const unsigned int d    = main_direction(view.axis, wall.area);
+    const auto        *edge = surfaces.past_edge(view.axis, view.piece);
+    return grid.cell_width(d, view.piece.face[d]) / (edge ? edge->factor : 1.) / 2;
   }
 
 
@@ -158,7 +159,7 @@ namespace undine
   {
     if (!(area > 0))
       return 0;
-    const FaceLinks<dim> links(grid, view.axis, open, surfaces.shapes);
+    const FaceLinks<dim> links(grid, view.axis, open, surfaces);
     const unsigned int   d = main_direction(view.axis, wall.area);
     const Side           side{d, wall.area[d] > 0 ? 0u : 1u};
     const double         projection = std::abs(wall.area[d]) / wall.area.norm();
@@ -176,7 +177,9 @@ namespace undine
       sum += projection * part;
       add(view.axis, beyond, part, meeting);
       surfaces.passages[view.axis].push_back(
-        {{{view.piece, beyond}}, -projection * part, links.distance(view.piece, beyond, d)});
+        {{{view.piece, beyond}},
+         -surfaces.share_between(view.axis, view.piece, beyond, d) * projection * part,
+         links.distance(view.piece, beyond, d)});
     });
     return result;
   }
@@ -240,7 +243,7 @@ namespace undine
   void
   WallContacts<dim>::add_closed_openings(const unsigned int axis)
   {
-    const FaceLinks<dim> links(grid, axis, open, surfaces.shapes);
+    const FaceLinks<dim> links(grid, axis, open, surfaces);
     const auto           add_those_of = [&](const FacePlace<dim> &place, const Side &side) {
       links.for_each_opening(place, side, [&](const auto &opening) {
         if (!opening.neighbour &&
@@ -285,7 +288,7 @@ namespace undine
     const auto closed = moved<dim>(piece.face, side.axis, side.sign());
     // Of two facets that are as far off, that on the side of the piece.
     constexpr double tie      = 1e-8;
-    const auto       centroid = meetings.centroid(axis, piece);
+    const auto       centroid = meetings.middle(axis, piece);
     auto             stuck    = centroid;
     stuck[side.axis]          = grid.faces(axis)->point(closed)[side.axis];
     const double middle       = std::abs(stuck[side.axis] - centroid[side.axis]);
@@ -407,7 +410,7 @@ namespace undine
                                    const unsigned int half,
                                    const int          piece) const
   {
-    const FaceLinks<dim>   links(grid, axis, open, surfaces.shapes);
+    const FaceLinks<dim>   links(grid, axis, open, surfaces);
     const auto            &face      = open.faces[axis].all()[piece].index;
     const int              component = open.pieces[axis][piece].components[half];
     dealii::Tensor<1, dim> result;

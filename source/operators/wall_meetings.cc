@@ -13,9 +13,6 @@ namespace undine
 {
   namespace
   {
-    /// Facets whose normals have at least this cosine belong to one smooth wall.
-    constexpr double smooth = 0.7;
-
     /// Areas below this share of a face are rounding.
     constexpr double negligible = 1e-9;
 
@@ -80,16 +77,16 @@ namespace undine
 
 
   template <int dim>
-  WallMeetings<dim>::WallMeetings(const MacGrid<dim>       &grid,
-                                  const CutCells<dim>      &cut,
-                                  const CutTopology<dim>   &parts,
-                                  const PieceShapes<dim>   &shapes,
-                                  const PlacedSurface<dim> &placed)
+  WallMeetings<dim>::WallMeetings(const MacGrid<dim>        &grid,
+                                  const CutCells<dim>       &cut,
+                                  const CutTopology<dim>    &parts,
+                                  const NoSlipSurfaces<dim> &surfaces,
+                                  const PlacedSurface<dim>  &placed)
     : grid(grid)
     , cut(cut)
     , parts(parts)
     , open(*parts.open)
-    , shapes(shapes)
+    , surfaces(surfaces)
     , placed(placed)
   {
   }
@@ -117,10 +114,13 @@ namespace undine
 
   template <int dim>
   dealii::Point<dim>
-  WallMeetings<dim>::centroid(const unsigned int axis, const FacePlace<dim> &place) const
+  WallMeetings<dim>::middle(const unsigned int axis, const FacePlace<dim> &place) const
   {
-    return place.part < 0 ? grid.faces(axis)->point(place.face)
-                          : open.faces[axis].all()[place.part].place;
+    auto result = place.part < 0 ? grid.faces(axis)->point(place.face)
+                                 : open.faces[axis].all()[place.part].place;
+    if (const auto *edge = surfaces.past_edge(axis, place))
+      result += edge->shift;
+    return result;
   }
 
 
@@ -200,7 +200,7 @@ namespace undine
   {
     const auto   facet   = cut.fragments[wall.fragment].facet;
     const auto   of_wall = unit_normal(facet);
-    const auto   centre  = centroid(view.axis, view.piece);
+    const auto   centre  = middle(view.axis, view.piece);
     const Chord *result  = nullptr;
     double       least   = std::numeric_limits<double>::infinity();
     for (const auto &chord : chords)
@@ -211,7 +211,7 @@ namespace undine
         const auto   other    = cut.fragments[chord.fragment].facet;
         if (distance < least && chord.chord.normal * facing > 0 &&
             placed.surface.body(other) == placed.surface.body(facet) &&
-            unit_normal(other) * of_wall >= smooth &&
+            unit_normal(other) * of_wall >= smooth_wall &&
             (chord.chord.middle - centre) * chord.chord.normal > 0)
           {
             least  = distance;
@@ -231,9 +231,12 @@ namespace undine
   {
     const unsigned int facet    = cut.fragments[chord.fragment].facet;
     const auto         normal   = chord.chord.normal / chord.chord.normal.norm();
-    const auto         distance = mean_distance_in_front(chord.chord, boundary(view, chords));
+    const auto        *edge     = surfaces.past_edge(view.axis, view.piece);
+    auto               distance = mean_distance_in_front(chord.chord, boundary(view, chords));
+    if (distance && edge)
+      *distance -= edge->shift * normal;
     return {{facet, nearest_point(corners(facet), chord.chord.middle)},
-            distance.value_or((chord.chord.middle - centroid(view.axis, view.piece)) * normal),
+            distance.value_or((chord.chord.middle - middle(view.axis, view.piece)) * normal),
             true};
   }
 
@@ -257,7 +260,7 @@ namespace undine
         result.push_back(chord.chord);
     for (unsigned int d = 0; d < dim; ++d)
       for (const unsigned int end : {0, 1})
-        if (const auto &rim = shapes[axis][piece.part].rims[2 * d + end]; rim.length > 0)
+        if (const auto &rim = surfaces.shapes[axis][piece.part].rims[2 * d + end]; rim.length > 0)
           {
             PlaneChord<dim> side;
             for (unsigned int along = 0; along < dim; ++along)
@@ -279,7 +282,7 @@ namespace undine
                           const Spot                   &spot) const
   {
     const auto place = point_of<dim>(corners(spot.facet), spot.weights);
-    return {spot, (place - centroid(view.axis, view.piece)) * normal};
+    return {spot, (place - middle(view.axis, view.piece)) * normal};
   }
 
 
@@ -317,7 +320,7 @@ namespace undine
         const auto   goes_on  = [&](const unsigned int facet) {
           const auto of_next = unit_normal(facet);
           return placed.surface.body(facet) == placed.surface.body(result.facet) &&
-                 of_next * of_facet >= smooth && facing * (of_next * normal) >= -rounding;
+                 of_next * of_facet >= smooth_wall && facing * (of_next * normal) >= -rounding;
         };
         const auto near = nearest_spot(there, beyond, view.axis, side, goes_on);
         if (!near)

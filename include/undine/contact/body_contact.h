@@ -66,6 +66,9 @@ namespace undine
     collision_free_fraction(const Configuration &from, const Configuration &to) const override;
     void
     check_start(const Vector &displacement, double time) const override;
+
+    std::string
+    note_of_start(const Vector &displacement, double time) const override;
     Columns
     columns(const Vector &displacement, double time) const override;
 

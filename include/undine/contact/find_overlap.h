@@ -17,8 +17,9 @@ namespace undine
     unsigned int node, surface;
   };
 
-  /// The first node that lies in another surface, deeper than `depth` [m], with its nodes at
-  /// `places` [m]; of the pairs of surfaces only those that counts(surface, other) names.
+  /// The first node that lies in another surface, deeper than `depth` [m] (negative: closer to it
+  /// than that from outside), with its nodes at `places` [m]; of the pairs of surfaces only those
+  /// that counts(surface, other) names.
   template <int dim>
   std::optional<NodeInSurface>
   find_surfaces_that_overlap(const ContactSurfaces<dim>                            &surfaces,

@@ -20,6 +20,10 @@
 
 namespace undine
 {
+  /// Facets whose normals have at least this cosine belong to one smooth wall.
+  constexpr double smooth_wall = 0.7;
+
+
   /// Along which axis a vector in a plane is longest.
   template <int dim>
   unsigned int
@@ -81,11 +85,11 @@ namespace undine
     };
 
     /// The references must outlive it.
-    WallMeetings(const MacGrid<dim>       &grid,
-                 const CutCells<dim>      &cut,
-                 const CutTopology<dim>   &parts,
-                 const PieceShapes<dim>   &shapes,
-                 const PlacedSurface<dim> &placed);
+    WallMeetings(const MacGrid<dim>        &grid,
+                 const CutCells<dim>       &cut,
+                 const CutTopology<dim>    &parts,
+                 const NoSlipSurfaces<dim> &surfaces,
+                 const PlacedSurface<dim>  &placed);
 
     /// The place of a wall itself.
     Spot
@@ -128,9 +132,10 @@ namespace undine
                  const Side                              &side,
                  const std::function<bool(unsigned int)> &counts = {}) const;
 
-    /// Centroid of a piece, or of a whole face [m].
+    /// Where the velocity of a piece, or of a whole face, acts: its centroid, or the middle of what
+    /// flows past an edge [m].
     dealii::Point<dim>
-    centroid(const unsigned int axis, const FacePlace<dim> &place) const;
+    middle(const unsigned int axis, const FacePlace<dim> &place) const;
 
   private:
     Spot
@@ -155,12 +160,12 @@ namespace undine
     dealii::ArrayView<const dealii::Point<dim>>
     corners_of_fragment(const int fragment) const;
 
-    const MacGrid<dim>       &grid;
-    const CutCells<dim>      &cut;
-    const CutTopology<dim>   &parts;
-    const FluidTopology<dim> &open;
-    const PieceShapes<dim>   &shapes;
-    const PlacedSurface<dim> &placed;
+    const MacGrid<dim>        &grid;
+    const CutCells<dim>       &cut;
+    const CutTopology<dim>    &parts;
+    const FluidTopology<dim>  &open;
+    const NoSlipSurfaces<dim> &surfaces;
+    const PlacedSurface<dim>  &placed;
   };
 } // namespace undine
 

@@ -3,6 +3,11 @@
 #include <undine/coupled/immersed/facet_stiffness.h>
 #include <undine/coupled/immersed/follower_pressure.h>
 
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
 namespace undine
 {
   namespace
@@ -22,6 +27,61 @@ namespace undine
         }
       return result;
     }
+
+
+    /// Centroid [m] of the volume within a closed surface, and that volume [m^dim], with values of
+    /// nodes for those of their shares of facets.
+    template <int dim>
+    std::pair<dealii::Point<dim>, double>
+    centroid_and_volume(const std::vector<unsigned int>           &nodes,
+                        const std::vector<dealii::Point<dim>>     &places,
+                        const std::vector<dealii::Tensor<1, dim>> &areas)
+    {
+      dealii::Tensor<1, dim> mean, moment;
+      for (const unsigned int node : nodes)
+        mean += places[node] / double(nodes.size());
+      double sum = 0;
+      for (const unsigned int node : nodes)
+        {
+          const auto   arm  = places[node] - mean;
+          const double part = areas[node] * dealii::Tensor<1, dim>(arm);
+          sum += part;
+          moment += part * dealii::Tensor<1, dim>(arm);
+        }
+      const dealii::Point<dim> middle(mean);
+      return {sum > 0 ? middle + dim / (dim + 1.) / sum * moment : middle, sum / dim};
+    }
+
+
+    /// Of a closed part of a surface, see FollowerPressure [Pa].
+    template <int dim>
+    double
+    level_of_pressure(const std::vector<unsigned int>           &nodes,
+                      const std::vector<dealii::Point<dim>>     &places,
+                      const std::vector<dealii::Tensor<1, dim>> &areas,
+                      const std::vector<dealii::Tensor<1, dim>> &loads)
+    {
+      const auto [centre, volume] = centroid_and_volume(nodes, places, areas);
+      double force = 0, square = 0, virial = 0;
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      bool   is_all_wet = true;
+      for (const unsigned int node : nodes)
+        if (loads[node].norm() > 0)
+          {
+            const double along = -loads[node] * areas[node], area = areas[node].norm_square();
+            force += along;
+            square += area;
+            virial -= loads[node] * (places[node] - centre);
+            least = std::min(least, along / area);
+            most  = std::max(most, along / area);
+          }
+        else
+          is_all_wet = false;
+      if (square == 0)
+        return 0;
+      return is_all_wet && volume > 0 ? std::clamp(virial / (dim * volume), least, most)
+                                      : force / square;
+    }
   } // namespace
 
 
@@ -39,16 +99,15 @@ namespace undine
     for (const auto &facet : surface.bodies()->surface().facets())
       for (const unsigned int node : facet)
         parts.join(node, facet[0]);
-    std::vector<double> force(pressures.size()), area(pressures.size());
+    std::map<unsigned int, std::vector<unsigned int>> nodes_of_parts;
     for (unsigned int node = 0; node < pressures.size(); ++node)
-      if (loads[node].norm() > 0)
-        {
-          force[parts.smallest(node)] -= loads[node] * where_cut[node];
-          area[parts.smallest(node)] += where_cut[node].norm_square();
-        }
-    for (unsigned int node = 0; node < pressures.size(); ++node)
-      if (const auto part = parts.smallest(node); area[part] > 0)
-        pressures[node] = force[part] / area[part];
+      nodes_of_parts[parts.smallest(node)].push_back(node);
+    for (const auto &[first, nodes] : nodes_of_parts)
+      {
+        const double level = level_of_pressure<dim>(nodes, cut_at, where_cut, loads);
+        for (const unsigned int node : nodes)
+          pressures[node] = level;
+      }
   }
 
 

@@ -108,7 +108,7 @@ namespace undine
              ++node)
           this->velocities[node] = bodies.increment[node] / dt;
         const double time    = bodies.time + bodies.stage.end;
-        const auto   gravity = models.environment().gravity;
+        const auto   gravity = models.requests_of_effects().gravity;
         outside              = geometry.outside_pressures_on_facets(gravity, time);
         pressures_at_rest    = geometry.void_pressures(time);
         if (gravity.norm() > 0)

@@ -58,7 +58,7 @@ namespace undine
     void
     initialize(State<dim> &state, const double dt, Report &report) override
     {
-      solid_side.initialize(state, dt);
+      solid_side.initialize(state, dt, report);
       Projection<dim> projection(*models.fluid);
       fluid_side.initialize(state, projection, dt, report);
       add_solver_columns(report);

@@ -38,7 +38,7 @@ namespace undine
     void
     initialize(State<dim> &state, const double dt, Report &report) override
     {
-      solid_side.initialize(state, dt);
+      solid_side.initialize(state, dt, report);
       fluid_side.initialize(state, projection, dt, report);
       solid_side.add_columns(report, state, state.clock.time);
     }

@@ -23,7 +23,7 @@ namespace undine
   void
   OneWay<dim>::initialize(State<dim> &state, const double dt, Report &report)
   {
-    solid_side.initialize(state, dt);
+    solid_side.initialize(state, dt, report);
     const auto start = state.solid;
     if (models.direction == Direction::fluid_to_body)
       state.solid = at_start;

@@ -16,7 +16,7 @@ namespace undine
   void
   SolidAlone<dim>::initialize(State<dim> &state, const double dt, Report &report)
   {
-    solid_side.initialize(state, dt);
+    solid_side.initialize(state, dt, report);
     solid_side.add_columns(report, state, state.clock.time);
   }
 

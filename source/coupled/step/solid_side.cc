@@ -26,10 +26,13 @@ namespace undine
 
   template <int dim>
   void
-  SolidSide<dim>::initialize(State<dim> &state, const double dt) const
+  SolidSide<dim>::initialize(State<dim> &state, const double dt, Report &report) const
   {
     state.solid = solid_stepper.initialize(surroundings, state.clock.time, dt);
     expect_loads(state.solid);
+    if (surroundings.contact)
+      report.warn("contact at the start",
+                  surroundings.contact->note_of_start(state.solid.displacement, state.clock.time));
   }
 
 

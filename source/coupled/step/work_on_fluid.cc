@@ -24,7 +24,7 @@ namespace undine
   WorkOnFluid<dim>::WorkOnFluid(const Models<dim> &models, const FluidGeometry<dim> *cut)
     : models(models)
     , model(*models.fluid)
-    , gravity(models.environment().gravity)
+    , gravity(models.requests_of_effects().gravity)
     , cut(cut)
   {
   }

@@ -70,7 +70,7 @@ namespace undine
   {
     if (place.part < 0)
       return grid.face_area(normal, place.face) / 2;
-    const double lower = shapes[normal][place.part].lower_half[axis];
+    const double lower = surfaces.shapes[normal][place.part].lower_half[axis];
     const double all   = open.faces[normal].all()[place.part].measure;
     return std::max(0., end == 0 ? lower : all - lower);
   }

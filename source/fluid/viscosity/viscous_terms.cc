@@ -26,7 +26,7 @@ namespace undine
     , open(open)
     , walls(walls)
     , viscosity(viscosity)
-    , links(grid, axis, open, walls.shapes)
+    , links(grid, axis, open, walls)
   {
   }
 
@@ -105,28 +105,46 @@ namespace undine
   void
   ViscousTerms<dim>::neighbours(const Action &action) const
   {
-    Term term;
-    term.faces.resize(2);
+    Term       term;
+    const auto between = [&](const FacePlace<dim> &one,
+                             const FacePlace<dim> &other,
+                             const double          area,
+                             const double          distance) {
+      term.faces.clear();
+      term.nodes.clear();
+      add(term, one, 1);
+      add(term, other, -1);
+      term.weight = viscosity * area / distance;
+      action(term);
+    };
     undine::for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
       for (unsigned int d = 0; d < dim; ++d)
         if (const Side side{d, 1}; d != axis && links.has_neighbour(face, side))
           links.for_each_place(face, [&](const FacePlace<dim> &place) {
             links.for_each_neighbour(
               place, side, [&](const FacePlace<dim> &next, const double area) {
-                term.weight   = viscosity * area / links.distance(place, next, d);
-                term.faces[0] = {place, 1.};
-                term.faces[1] = {next, -1.};
-                action(term);
+                between(place,
+                        next,
+                        walls.share_between(axis, place, next, d) * area,
+                        links.distance(place, next, d));
               });
           });
     });
     for (const auto &passage : walls.passages[axis])
-      {
-        term.weight   = viscosity * passage.area / passage.distance;
-        term.faces[0] = {passage.pieces[0], 1.};
-        term.faces[1] = {passage.pieces[1], -1.};
-        action(term);
-      }
+      between(passage.pieces[0], passage.pieces[1], passage.area, passage.distance);
+  }
+
+
+  /// Add `sign` times the velocity with which the fluid of a piece flows past others (I14).
+  template <int dim>
+  void
+  ViscousTerms<dim>::add(Term &term, const FacePlace<dim> &place, const double sign) const
+  {
+    const auto *edge = walls.past_edge(axis, place);
+    term.faces.emplace_back(place, edge ? sign * edge->factor : sign);
+    if (edge)
+      for (unsigned int k = 0; k <= dim; ++k)
+        term.nodes.emplace_back(edge->nodes[k], -sign * (edge->factor - 1) * edge->weights[k]);
   }
 
 
@@ -137,7 +155,6 @@ namespace undine
     Term                         term;
     const auto                  &lattice = *grid.faces(axis);
     const VelocityCondition<dim> condition(axis);
-    term.faces.resize(1);
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int end = 0; end < 2 && d != axis && !grid.periodic(d); ++end)
         {
@@ -150,9 +167,13 @@ namespace undine
             const auto on_side = moved<dim>(face, d, side.sign());
             links.for_each_place(face, [&](const FacePlace<dim> &place) {
               const double distance =
-                std::max(std::abs(links.position(face, side) - links.centroid(place)[d]),
+                std::max(std::abs(links.position(face, side) - links.middle(place)[d]),
                          least_share * grid.cell_width(d, face[d]));
-              const double weight = viscosity * links.area_on_side(place, side) / distance;
+              const double share  = walls.share_beside(axis, place, d);
+              const double weight = viscosity * share * links.area_on_side(place, side) / distance;
+              term.faces.clear();
+              term.nodes.clear();
+              add(term, place, 1);
               for_each_boundary_around(
                 model.boundaries(),
                 lattice,
@@ -161,9 +182,8 @@ namespace undine
                 [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
                   if (!condition.is_dirichlet(boundary) || weight == 0)
                     return;
-                  term.weight   = fraction * weight;
-                  term.faces[0] = {place, 1.};
-                  term.wall     = {&boundary, d, lattice.point(on_side)};
+                  term.weight = fraction * weight;
+                  term.wall   = {&boundary, d, lattice.point(on_side)};
                   action(term);
                 });
             });
@@ -177,14 +197,14 @@ namespace undine
   ViscousTerms<dim>::contacts(const Action &action) const
   {
     Term term;
-    term.faces.resize(1);
-    term.nodes.resize(dim);
     for (const auto &contact : walls.contacts[axis])
       {
-        term.weight   = viscosity * contact.area / contact.distance;
-        term.faces[0] = {contact.piece, 1.};
+        term.faces.clear();
+        term.nodes.clear();
+        term.weight = viscosity * contact.area / contact.distance;
+        add(term, contact.piece, 1);
         for (unsigned int k = 0; k < dim; ++k)
-          term.nodes[k] = {contact.nodes[k], -contact.weights[k]};
+          term.nodes.emplace_back(contact.nodes[k], -contact.weights[k]);
         action(term);
       }
   }

@@ -84,15 +84,16 @@ namespace undine
     dealii::DataOutBase::DataOutFilter filter(
       dealii::DataOutBase::DataOutFilterFlags(/*filter_duplicate_vertices*/ merge,
                                               /*xdmf_hdf5_output*/ true));
-    if (!patches.patches.empty())
+    const bool has_patches = !patches.patches.empty(); // else the filter does not know its sizes
+    if (has_patches)
       dealii::DataOutBase::write_filtered_data(
         patches.patches, patches.components, patches.vectors, filter);
 
     std::vector<double>       nodes;
     std::vector<unsigned int> cells;
-    const Rows                node_rows(filter.n_nodes(), communicator);
-    const Rows                cell_rows(filter.n_cells(), communicator);
-    if (!patches.patches.empty())
+    const Rows                node_rows(has_patches ? filter.n_nodes() : 0, communicator);
+    const Rows                cell_rows(has_patches ? filter.n_cells() : 0, communicator);
+    if (has_patches)
       {
         filter.fill_node_data(nodes);
         filter.fill_cell_data(node_rows.first, cells);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/fields/patches.h>
 #include <undine/output/fields/solution_parts.h>
 #include <undine/output/files/hdf5_reader.h>
 #include <undine/output/output.h>
@@ -298,6 +299,27 @@ TEST_CASE("xdmf: every time lists both parts, whose arrays exist", "[solution][m
       }
   CHECK(n_times == 3);
   CHECK(n_arrays == n_times * (5 + 5));
+}
+
+
+TEST_CASE("xdmf: all may belong to one rank", "[solution][mpi]")
+{
+  const TemporaryFolder folder;
+  Patches<2>            patches;
+  patches.components = {"height"};
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    {
+      dealii::DataOutBase::Patch<2> patch;
+      for (unsigned int k = 0; k < 4; ++k)
+        patch.vertices[k] = dealii::Point<2>(k % 2, k / 2);
+      patch.reference_cell = dealii::ReferenceCells::Quadrilateral;
+      patch.data.reinit(1, 4);
+      patches.patches.push_back(patch);
+    }
+  const auto path = folder.path / "one_cell.h5";
+  write_hdf5(MPI_COMM_WORLD, path, "one_cell.h5", patches, 0);
+  CHECK(HDF5Reader(path, MPI_COMM_WORLD).contains("height"));
+  CHECK(fs::file_size(path) < 100000);
 }
 
 

@@ -3,6 +3,8 @@
 
 #include <undine/base/core/newton.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <catch2/catch.hpp>
 #include <solid/material_samples.h>
 
@@ -80,6 +82,102 @@ namespace
     rounding() const
     {
       return rounded;
+    }
+
+    unsigned int
+    linear_iterations() const
+    {
+      return 0;
+    }
+  };
+
+
+  struct StiffRodUnknown : dealii::Tensor<1, 3>
+  {
+    using dealii::Tensor<1, 3>::Tensor;
+
+    explicit StiffRodUnknown(const dealii::Tensor<1, 3> &values)
+      : dealii::Tensor<1, 3>(values)
+    {
+    }
+
+    void
+    add(const double factor, const StiffRodUnknown &other)
+    {
+      *this += factor * other;
+    }
+  };
+
+
+  /// The end of a stiff rod around the origin, pulled to an angle by a weak spring, and beside it
+  /// 100 atan(x). Its corrections lead upwards, so that there is no descent.
+  struct StiffRod
+  {
+    using Unknown = StiffRodUnknown;
+
+    double                  stiffness, angle;
+    dealii::Tensor<1, 3>    residual;
+    dealii::Tensor<2, 3>    inverse; ///< of the tangent
+    static constexpr double beside = 100;
+
+    double
+    evaluate(const Unknown &x)
+    {
+      const double length  = std::hypot(x[0], x[1]);
+      const double tension = stiffness * (length - 1) / length;
+      residual[0]          = tension * x[0] + x[0] - std::cos(angle);
+      residual[1]          = tension * x[1] + x[1] - std::sin(angle);
+      residual[2]          = beside * std::atan(x[2]);
+      return residual.norm();
+    }
+
+    Unknown
+    correction(const Unknown &x, const CorrectionRequest &request)
+    {
+      if (request.new_tangent)
+        inverse = invert(tangent(x));
+      Unknown result;
+      result.add(-1., Unknown(inverse * residual));
+      return result;
+    }
+
+    dealii::Tensor<2, 3>
+    tangent(const Unknown &x) const
+    {
+      const double         length = std::hypot(x[0], x[1]);
+      dealii::Tensor<2, 3> result;
+      for (unsigned int i = 0; i < 2; ++i)
+        {
+          result[i][i] = 1 + stiffness * (1 - 1 / length);
+          for (unsigned int j = 0; j < 2; ++j)
+            result[i][j] += stiffness * x[i] * x[j] / std::pow(length, 3);
+        }
+      result[2][2] = beside / (1 + x[2] * x[2]);
+      return result;
+    }
+
+    double
+    slope(const Unknown &) const
+    {
+      return 1;
+    }
+
+    double
+    part_left() const
+    {
+      return 0;
+    }
+
+    double
+    scale() const
+    {
+      return 1;
+    }
+
+    double
+    rounding() const
+    {
+      return 1e-12;
     }
 
     unsigned int
@@ -186,6 +284,26 @@ TEST_CASE("Newton's method goes down a potential where the residual has a least 
   x.value = 20;
   solve_newton(upwards, x, NewtonOptions());
   CHECK(std::abs(x.value) < 1e-10);
+}
+
+
+TEST_CASE("Newton's method turns what is stiff, also after it had to halve corrections", "[newton]")
+{
+  // A stiff rod that a weak spring turns by an angle of 1 or 2, beside a number for which full
+  // corrections diverge until they are halved. Any small turn of the rod stretches it.
+  for (const double stiffness : {1e3, 1e4})
+    for (const double angle : {1., 2.})
+      for (const bool has_tangent : {false, true}) // one that leads away
+        {
+          StiffRod        problem{stiffness, angle, {}, -1. * dealii::unit_symmetric_tensor<3>()};
+          StiffRodUnknown x(dealii::Tensor<1, 3>({1, 0, 2}));
+          const auto      report = solve_newton(problem, x, NewtonOptions(), has_tangent);
+          CAPTURE(stiffness, angle, has_tangent);
+          CHECK(report.cuts > 0);
+          CHECK(std::abs(x[0] - std::cos(angle)) < 1e-9);
+          CHECK(std::abs(x[1] - std::sin(angle)) < 1e-9);
+          CHECK(std::abs(x[2]) < 1e-9);
+        }
 }
 
 

@@ -19,8 +19,10 @@ namespace undine
   /// and if it has not fallen below its best by then, the best point is taken up again and its
   /// correction followed down the potential whose gradient is r (Descent), or, where there is none,
   /// halved until the residual falls [Chamberlain, Powell, Lemarechal, Pedersen 1982; Nocedal,
-  /// Wright, Numerical Optimization, section 15.6]. After that the residual may not rise any more:
-  /// every correction that does not bring it below its best is halved.
+  /// Wright, Numerical Optimization, section 15.6]. After that the residual may not rise any more,
+  /// and every correction that does not bring it below its best is halved; but where that gains
+  /// little two of them may again: a stiff body that is about to turn far stretches in a full
+  /// correction, which the next one takes back, while halved ones lead around in tiny steps.
   ///
   /// It may be inexact: as long as corrections reduce the residual tenfold, those that follow keep
   /// the tangent (the chord method), and the linear solver is not asked for much more than such a
@@ -60,7 +62,9 @@ namespace undine
 
     static constexpr double enough_to_keep_a_tangent = 0.1;  ///< reduction of the residual [1]
     static constexpr double first_gain               = 1e-3; ///< that a correction is asked for [1]
-    static constexpr double beyond_linear = 5; ///< times what the linear solver leaves [1]
+    static constexpr double beyond_linear = 5;       ///< times what the linear solver leaves [1]
+    static constexpr double little_gained = 0.5;     ///< of the residual, by halved corrections [1]
+    static constexpr unsigned int relaxed_again = 2; ///< allowance after such a gain
 
     /// The best point so far, to go back to.
     struct Best
@@ -158,7 +162,7 @@ namespace undine
               throw;
             continue;
           }
-        if (residual < best.residual)
+        if (!(residual > best.residual)) // also where only the tangent is another one
           {
             best    = {x, correction, residual};
             relaxed = 0;
@@ -291,7 +295,11 @@ namespace undine
         x.add(length, best.correction);
         residual = trials.evaluate(x);
         if (residual < (1 - 1e-4 * length) * best.residual)
-          return true;
+          {
+            if (residual > little_gained * best.residual)
+              allowance = std::min(options.relaxed_steps, relaxed_again);
+            return true;
+          }
       }
     x        = best.x;
     residual = problem.evaluate(x);

@@ -32,8 +32,11 @@ namespace undine
     }
 
     /// The grid was cut where all nodes were at `cut_at` [m]. Each closed part of the surface has
-    /// the pressure that is nearest to the normal parts of `loads` [N] on its wet nodes. The
-    /// surface must outlive it.
+    /// the pressure of which the virial is that of `loads` [N], so that all of them have in sum no
+    /// stiffness against turning about its centroid: a light body has little inertia to oppose it.
+    /// It is no less and no more than those on its nodes are, however thin it is. Where some nodes
+    /// are dry it is that nearest to the normal parts of the loads on the others. The surface must
+    /// outlive it.
     FollowerPressure(const ImmersedSurface<dim> &surface,
                      const Positions            &cut_at,
                      const Vectors              &loads);

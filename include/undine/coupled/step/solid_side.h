@@ -21,10 +21,10 @@ namespace undine
     /// The references must outlive it. Collective.
     SolidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
 
-    /// The bodies at the time of the state's clock. `dt` [s] is the length of the first step.
-    /// Collective.
+    /// The bodies at the time of the state's clock, with a warning if contact pushes them already.
+    /// `dt` [s] is the length of the first step. Collective.
     void
-    initialize(State<dim> &state, double dt) const;
+    initialize(State<dim> &state, double dt, Report &report) const;
 
     /// The bodies of `state` become those from which the stage of the step from t^n starts, their
     /// values at its begin gone on with the rates that were kept; the budget, if it is on, gets

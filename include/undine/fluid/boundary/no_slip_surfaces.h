@@ -38,6 +38,22 @@ namespace undine
   template <int dim>
   using PieceShapes = std::array<std::vector<PieceShape<dim>>, dim>;
 
+  /// How fluid flows past the edge of a body beside a piece of a face, of which a part lies in
+  /// front of a wall that ends there: in the rest of the piece, on average with the velocity
+  ///
+  ///     factor v - (factor - 1) u,      u = sum_k weights[k] u_nodes[k]                     (I14)
+  ///
+  /// if v is that of the piece, and that of the surface is u where the fluid is held back.
+  template <int dim>
+  struct FlowPastEdge
+  {
+    double                            factor    = 1; ///< of areas [1]; 1: there is no edge
+    unsigned int                      direction = 0; ///< from wall to rest, along which it narrows
+    dealii::Tensor<1, dim>            shift;         ///< of its middle, from the centroid [m]
+    std::array<unsigned int, dim + 1> nodes{};       ///< of the surface
+    std::array<double, dim + 1>       weights{};
+  };
+
   /// What the friction of a fluid needs to know of the surfaces in it, besides the topology that
   /// they leave of the grid.
   template <int dim>
@@ -70,7 +86,40 @@ namespace undine
       dealii::Tensor<1, dim> area;
     };
 
-    PieceShapes<dim>                      shapes;
+    PieceShapes<dim> shapes;
+
+    /// Likewise; empty if there are no surfaces.
+    std::array<std::vector<FlowPastEdge<dim>>, dim> past_edges;
+
+    /// nullptr if there is no edge beside the piece.
+    const FlowPastEdge<dim> *
+    past_edge(const unsigned int axis, const FacePlace<dim> &place) const
+    {
+      if (place.part < 0 || past_edges[axis].empty())
+        return nullptr;
+      const auto &result = past_edges[axis][place.part];
+      return result.factor > 1 ? &result : nullptr;
+    }
+
+    /// Of the area over which the fluid of a piece touches what is beside it along `d`: that of
+    /// what flows past an edge in another direction [1].
+    double
+    share_beside(const unsigned int axis, const FacePlace<dim> &place, const unsigned int d) const
+    {
+      const auto *edge = past_edge(axis, place);
+      return edge && edge->direction != d ? 1 / edge->factor : 1;
+    }
+
+    /// The mean of two of them [1].
+    double
+    share_between(const unsigned int    axis,
+                  const FacePlace<dim> &one,
+                  const FacePlace<dim> &other,
+                  const unsigned int    d) const
+    {
+      return (share_beside(axis, one, d) + share_beside(axis, other, d)) / 2;
+    }
+
     std::array<std::vector<Contact>, dim> contacts; ///< by axis, of this rank's faces
     std::array<std::vector<Passage>, dim> passages; ///< likewise
     std::vector<Patch>                    patches;  ///< of this rank's components, in their order

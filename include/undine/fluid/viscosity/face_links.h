@@ -34,15 +34,15 @@ namespace undine
       std::optional<FacePlace<dim>> neighbour; ///< that moves the fluid beyond, if any piece does
     };
 
-    /// `shapes` of all pieces. The references must outlive it.
-    FaceLinks(const MacGrid<dim>       &grid,
-              const unsigned int        axis,
-              const FluidTopology<dim> &open,
-              const PieceShapes<dim>   &shapes)
+    /// `surfaces` knows the shapes of all pieces. The references must outlive it.
+    FaceLinks(const MacGrid<dim>        &grid,
+              const unsigned int         axis,
+              const FluidTopology<dim>  &open,
+              const NoSlipSurfaces<dim> &surfaces)
       : grid(grid)
       , axis(axis)
       , open(open)
-      , shapes(shapes)
+      , surfaces(surfaces)
     {
     }
 
@@ -68,12 +68,20 @@ namespace undine
       return centroid(axis, place);
     }
 
-    /// Of the centroids of two pieces along `d`, at least a hundredth of the narrower cell:
-    /// what is nearer moves along anyway, and the equations keep their condition [m].
+    /// Where the velocity acts: the centroid, or the middle of what flows past an edge [m].
+    dealii::Point<dim>
+    middle(const FacePlace<dim> &place) const
+    {
+      const auto *edge = surfaces.past_edge(axis, place);
+      return edge ? centroid(place) + edge->shift : centroid(place);
+    }
+
+    /// Of the middles of two pieces along `d`, at least a hundredth of the narrower cell: what is
+    /// nearer moves along anyway, and the equations keep their condition [m].
     double
     distance(const FacePlace<dim> &a, const FacePlace<dim> &b, const unsigned int d) const
     {
-      return std::max(std::abs(centroid(b)[d] - centroid(a)[d]),
+      return std::max(std::abs(middle(b)[d] - middle(a)[d]),
                       least_share *
                         std::min(grid.cell_width(d, a.face[d]), grid.cell_width(d, b.face[d])));
     }
@@ -156,7 +164,7 @@ namespace undine
     rim(const unsigned int normal, const FacePlace<dim> &place, const Side &side) const
     {
       return place.part < 0 ? whole_rim(normal, place.face, side.axis)
-                            : shapes[normal][place.part].rims[2 * side.axis + side.end];
+                            : surfaces.shapes[normal][place.part].rims[2 * side.axis + side.end];
     }
 
     /// The area of the half of a piece, normal to `normal`, that is lower or upper along the axis.
@@ -173,10 +181,10 @@ namespace undine
              const unsigned int    normal,
              const FacePlace<dim> &opening) const;
 
-    const MacGrid<dim>       &grid;
-    const unsigned int        axis;
-    const FluidTopology<dim> &open;
-    const PieceShapes<dim>   &shapes;
+    const MacGrid<dim>        &grid;
+    const unsigned int         axis;
+    const FluidTopology<dim>  &open;
+    const NoSlipSurfaces<dim> &surfaces;
   };
 
 

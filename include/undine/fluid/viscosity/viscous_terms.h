@@ -75,6 +75,8 @@ namespace undine
     void
     contacts(const Action &action) const;
 
+    void
+    add(Term &term, const FacePlace<dim> &place, const double sign) const;
     double
     area(const FacePlace<dim> &place) const;
 

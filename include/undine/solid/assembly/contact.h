@@ -7,6 +7,7 @@
 #include <undine/base/core/stage.h>
 #include <undine/solid/mesh/solid_model.h>
 
+#include <string>
 #include <vector>
 
 namespace undine
@@ -64,6 +65,10 @@ namespace undine
     /// Throws InputError, with a hint, if something overlaps.
     virtual void
     check_start(const Vector &displacement, double time) const = 0;
+
+    /// What pushes already, for a note at the start; empty if nothing does.
+    virtual std::string
+    note_of_start(const Vector &displacement, double time) const = 0;
 
     /// For the file `statistics`: energy, least gap, number of contacts, force on every body.
     virtual Columns

@@ -284,6 +284,14 @@ TEST_CASE("what contact cannot do is refused with a hint", "[contact]")
   };
   CHECK_THAT(why(section("Bodies", ball<2>("low", "0, .05", "0; 0")), floor_at_zero<2>()),
              Contains("body 'low' is not on the free side of wall 'floor'") && Contains("Try"));
+  // A gap that is nothing but rounding is none.
+  CHECK_THAT(why(section("Bodies", ball<2>("low", "0, .1 + 1e-13", "0; 0")), floor_at_zero<2>()),
+             Contains("body 'low' is not on the free side of wall 'floor'"));
+  CHECK_THAT(
+    why(
+      section("Bodies", ball<2>("one", "0, .2", "0; 0") + ball<2>("two", ".2 + 1e-13, .2", "0; 0")),
+      floor_at_zero<2>()),
+    Contains("overlaps"));
   CHECK_THAT(
     why(section("Bodies", ball<2>("one", "0, .2", "0; 0") + ball<2>("two", ".1, .2", "0; 0")),
         floor_at_zero<2>()),
@@ -300,6 +308,23 @@ TEST_CASE("what contact cannot do is refused with a hint", "[contact]")
                       section("Walls", section("floor", "set Point = 0, 0\nset Normal = 0, 0"))))),
     Contains("no direction"));
   CHECK(why(section("Bodies", ball<2>("ball", "0, .2", "0; 0")), floor_at_zero<2>()) == "no error");
+}
+
+
+TEST_CASE("contact that pushes from the start is said to", "[contact]")
+{
+  using Catch::Contains;
+  const auto notes = [](const std::string &centre) {
+    const CoupledRun<2> run(steps_of(.01) + section("Bodies", ball<2>("ball", centre, "0; 0")) +
+                            floor_at_zero<2>());
+    std::string         text;
+    for (const auto &warning : run.report.warnings)
+      text += warning.text;
+    return text;
+  };
+  CHECK_THAT(notes("0, .1 + 1e-4"),
+             Contains("'ball' is 0.0001 m from wall 'floor'") && Contains("larger gap"));
+  CHECK(notes("0, .2") == "");
 }
 
 

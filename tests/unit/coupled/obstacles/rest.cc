@@ -74,8 +74,8 @@ namespace
     for_each_unplaced_value(one, [](double &value) { value = 1; });
     const auto             weight = fluid_density * integral(*run.models.fluid, one) * gravity;
     dealii::Tensor<1, dim> carried;
-    for (const std::string &wall : {"lid", "other sides"})
-      carried += run.column_vector("Pressure force on " + wall + ",");
+    for (const char *wall : {"lid", "other sides"})
+      carried += run.column_vector(std::string("Pressure force on ") + wall + ",");
     for (const auto &name : run.surface().body_names())
       carried += run.column_vector("pressure force " + name);
     CHECK((carried - weight).norm() <= 1e-12 * weight.norm());

@@ -3,6 +3,8 @@
 
 #include <coupled/coupled_run.h>
 
+#include <array>
+
 using namespace undine_tests;
 
 namespace
@@ -137,6 +139,68 @@ namespace
   }
 
 
+  /// The moment in the plane of two axes about their centres [N m], of the loads and of what
+  /// follows the bodies, after these have turned by a small angle in that plane.
+  template <int dim>
+  std::array<double, 2>
+  moments(const BallAndBox<dim> &bodies,
+          const double           angle,
+          const unsigned int     a,
+          const unsigned int     b)
+  {
+    const auto turn = [&](const dealii::Tensor<1, dim> &vector) {
+      auto result = vector;
+      result[a]   = std::cos(angle) * vector[a] - std::sin(angle) * vector[b];
+      result[b]   = std::sin(angle) * vector[a] + std::cos(angle) * vector[b];
+      return result;
+    };
+    const auto             following = bodies.following();
+    const auto             forces    = following.forces(bodies.displacement([&](const auto &place) {
+      const dealii::Tensor<1, dim> arm(place);
+      return turn(arm) - arm;
+    }));
+    const auto             loads     = bodies.loads(bodies.at_rest);
+    const dealii::Point<3> of_ball(.3, .3, .3), of_box(.65, .7, .55);
+    std::array<double, 2>  result{};
+    for (unsigned int node = 0; node < forces.size(); ++node)
+      {
+        const bool             is_of_ball = bodies.is_of_ball(bodies.at_rest[node]);
+        dealii::Tensor<1, dim> arm;
+        for (unsigned int d = 0; d < dim; ++d)
+          arm[d] = bodies.at_rest[node][d] - (is_of_ball ? of_ball : of_box)[d];
+        arm              = turn(arm);
+        const auto force = loads[node] + forces[node];
+        result[is_of_ball ? 0 : 1] += arm[a] * force[b] - arm[b] * force[a];
+      }
+    return result;
+  }
+
+
+  /// Forces that kept their direction would turn a body as soon as it has turned a little, and one
+  /// without inertia far.
+  template <int dim>
+  void
+  check_moments()
+  {
+    BallAndBox<dim> bodies;
+    for (unsigned int node = 0; node < bodies.pressures.size(); ++node)
+      {
+        const auto &place      = bodies.at_rest[node];
+        bodies.pressures[node] = 1e4 * (1 + place[0] + 9 * place[0] * place[0] * place[1]);
+      }
+    constexpr double      angle = 1e-5;
+    std::array<double, 2> stiffness{};
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = a + 1; b < dim; ++b)
+        for (unsigned int body = 0; body < 2; ++body)
+          stiffness[body] +=
+            (moments(bodies, angle, a, b)[body] - moments(bodies, -angle, a, b)[body]) /
+            (2 * angle);
+    for (const double of_body : stiffness) // pressures times volumes are some hundred
+      CHECK(std::abs(of_body) <= 1e-4);
+  }
+
+
   template <int dim>
   void
   check_resultant()
@@ -213,6 +277,13 @@ TEST_CASE("A level of pressure turns with the bodies", "[coupled][mpi]")
 {
   check_turn<2>();
   check_turn<3>();
+}
+
+
+TEST_CASE("Pressure that follows bodies neither turns them on nor back", "[coupled][mpi]")
+{
+  check_moments<2>();
+  check_moments<3>();
 }
 
 
