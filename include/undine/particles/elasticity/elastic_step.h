@@ -280,6 +280,7 @@ namespace undine::particles
         {
           std::uint32_t *const measured = &control->elastic_rates[steps.taken % 2];
           std::uint32_t *const later    = &control->elastic_rates[(steps.taken + 1) % 2];
+          contact.time_left             = static_cast<Real>(steps.left);
           team.for_each_by_lanes(n, [&](const int i, const auto &lanes) {
             elasticity.deform(i, lanes);
             measure_rate(i, lanes, measured);
@@ -332,6 +333,7 @@ namespace undine::particles
       const int  n         = bodies().n;
       const Real h         = static_cast<Real>(control->dt);
       elasticity.is_damped = false;
+      contact.time_left    = 0; // forces are those at the end
       team.for_each_by_lanes(n,
                              [&](const int i, const auto &lanes) { elasticity.deform(i, lanes); });
       team.sync();
