@@ -61,6 +61,17 @@ namespace
   }
 
 
+  /// Of bodies that have gone through periodic sides, and a quarter of a metre on.
+  std::vector<particles::Vector<2, double>>
+  points_a_period_ahead(const Models<2> &models)
+  {
+    auto result = models.particles->setup().reference;
+    for (auto &point : result)
+      point[0] += 8.25;
+    return result;
+  }
+
+
   Columns
   measured(const Models<2>   &models,
            const State<2>    &state,
@@ -82,8 +93,11 @@ namespace
 TEST_CASE("particles: a checkpoint read back is what was written")
 {
   const TemporaryFolder folder;
-  const auto            models = sample_models();
-  const auto            state  = sample_state(models);
+  const auto            models      = sample_models();
+  auto                  state       = sample_state(models);
+  const bool            goes_around = GENERATE(false, true); // through periodic sides
+  if (goes_around)
+    state.particles.body_points = points_a_period_ahead(models);
   write_checkpoint(folder.path, models, state);
   State<2> other;
   other.particles                  = models.particles->initial_state();
@@ -95,6 +109,9 @@ TEST_CASE("particles: a checkpoint read back is what was written")
   CHECK(a.pressures == b.pressures);
   CHECK(a.guesses == b.guesses);
   CHECK(a.scalars == b.scalars);
+  REQUIRE(a.body_points.size() == b.body_points.size());
+  for (std::size_t k = 0; k < a.body_points.size(); ++k)
+    CHECK(norm_square(a.body_points[k] - b.body_points[k]) == 0);
   for (std::size_t k = 0; k < a.positions.size(); ++k)
     {
       CHECK(a.tags[k].code == b.tags[k].code);
@@ -175,6 +192,18 @@ TEST_CASE("particles: probes of the body, the wall and the front")
       }
   CHECK(measured(models, state, "front", "set Direction = y")[0].value == Approx(3));
   CHECK(measured(models, state, "front", "set Direction = -x")[0].value == Approx(0.25));
+}
+
+
+TEST_CASE("particles: displacements go on through periodic sides")
+{
+  const auto models           = sample_models();
+  auto       state            = sample_state(models);
+  state.particles.body_points = points_a_period_ahead(models);
+  CHECK(measured(models, state, "body point", "set Body = block\n set Point = 2.4, 5.6")[0].value ==
+        Approx(8.25));
+  for (const auto &patch : particle_patches(*models.particles, state.particles).patches)
+    CHECK(patch.data(2, 0) == Approx(patch.data(5, 0) == 1 ? 8.25 : 0.));
 }
 
 
