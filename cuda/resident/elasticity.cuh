@@ -66,6 +66,7 @@ namespace undine::particles
       , copies(shared.copies, memory, exchange.n)
       , tractions_are_there(shared.signal, workers())
       , steps(step.control->dt, step.bounds)
+      , time_left(static_cast<float>(step.control->dt))
       , round(*exchange.last_round)
     {
       const int each = (exchange.n + gridDim.x - 1) / gridDim.x;
@@ -107,6 +108,7 @@ namespace undine::particles
           __syncthreads();
           if (is_worker)
             point = step.moved(point, held, shared.h, a);
+          time_left -= shared.h;
         }
       while (shared.goes_on);
       if (is_owner && WarpLanes::rank() == 0)
@@ -218,16 +220,17 @@ namespace undine::particles
               entries[column] = now.T[row][column];
             put(traction_of(i) + row, entries, round);
           }
-      touch = step.contact.response(i, point, n_partners, DeviceLanes(), [&](const int partner) {
-        FlaggedVector<dim> x, v;
-        do
-          {
-            x = look_at(point_of(partner));
-            v = look_at(point_of(partner) + 1);
-          }
-        while (x.round != round || v.round != round);
-        return ElasticPoint<dim, float>{x.vector, v.vector};
-      });
+      touch = step.contact.response(
+        i, point, n_partners, time_left, DeviceLanes(), [&](const int partner) {
+          FlaggedVector<dim> x, v;
+          do
+            {
+              x = look_at(point_of(partner));
+              v = look_at(point_of(partner) + 1);
+            }
+          while (x.round != round || v.round != round);
+          return ElasticPoint<dim, float>{x.vector, v.vector};
+        });
       __syncwarp();
       const float        rate    = step.rate_of(own.material, now.F, touch);
       const unsigned int largest = __reduce_max_sync(everybody, __float_as_uint(rate));
@@ -310,6 +313,7 @@ namespace undine::particles
     LocalCopies<dim>            copies;
     WarpSignal                  tractions_are_there; ///< for the workers
     ExplicitSteps               steps;               ///< in the last warp
+    float                       time_left;           ///< of the sub-step [s]
     unsigned int                round;
     int                         i;                   ///< the particle
     bool                        is_worker, is_owner; ///< others repeat what another one does

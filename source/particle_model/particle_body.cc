@@ -118,7 +118,7 @@ namespace undine
                 "1",
                 Allowed::not_negative(),
                 "Against motions of particles that the gradient of deformation does not see, as "
-                "share of the shear modulus.");
+                "share of the shear modulus. With more than 1 explicit steps become shorter.");
     options.add("Bond damping",
                 setup.damping,
                 "1",

@@ -223,6 +223,21 @@ namespace undine
 
 
   template <int dim>
+  dealii::Tensor<1, dim>
+  ParticleDomain<dim>::way(const dealii::Point<dim> &to, const dealii::Point<dim> &from) const
+  {
+    dealii::Tensor<1, dim> result = to - from;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      if (periodic(axis))
+        {
+          const double period = upper[axis] - lower[axis];
+          result[axis] -= period * std::round(result[axis] / period);
+        }
+    return result;
+  }
+
+
+  template <int dim>
   dealii::Point<dim>
   ParticleDomain<dim>::outermost_lower() const
   {

@@ -157,6 +157,7 @@ namespace undine
     if (fluid)
       add_fluid(*fluid, layers, obstacles);
     add_walls(walls);
+    surfaces = std::move(obstacles.surfaces);
   }
 
 
@@ -540,6 +541,35 @@ namespace undine
     particles::WallPaths<dim> result;
     for (const auto &obstacle : moving)
       obstacle.add_paths(result, time, length);
+    return result;
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  ParticleModel<dim>::out_of_wall(const dealii::Point<dim> &place, const double reach) const
+  {
+    dealii::Tensor<1, dim> result;
+    double                 nearest = reach;
+    const auto             look    = [&](const double distance, const auto &outwards) {
+      if (std::abs(distance) >= nearest)
+        return;
+      nearest = std::abs(distance);
+      result  = outwards;
+    };
+    for (unsigned int side = 0; side < 2 * dim; ++side)
+      if (box.sides[side] == ParticleSide::wall)
+        {
+          const unsigned int     axis = side / 2;
+          dealii::Tensor<1, dim> outwards;
+          outwards[axis] = side % 2 == 0 ? 1 : -1;
+          look(place[axis] - (side % 2 == 0 ? box.lower : box.upper)[axis], outwards);
+        }
+    for (const auto &surface : surfaces)
+      {
+        const auto found = surface->nearest(place);
+        look(found.distance, found.outwards);
+      }
     return result;
   }
 

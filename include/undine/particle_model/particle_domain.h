@@ -57,6 +57,10 @@ namespace undine
       return sides[2 * axis] == ParticleSide::periodic;
     }
 
+    /// The shortest way to `to` from `from`, across periodic sides where that is shorter [m].
+    dealii::Tensor<1, dim>
+    way(const dealii::Point<dim> &to, const dealii::Point<dim> &from) const;
+
     bool
     contains(const dealii::Point<dim> &place) const;
 

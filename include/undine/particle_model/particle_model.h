@@ -63,6 +63,11 @@ namespace undine
       return box;
     }
 
+    /// The direction of length 1 out of walls and obstacles at the start, of that of their surfaces
+    /// that is nearest to `place`; zero if none is within `reach` [m].
+    dealii::Tensor<1, dim>
+    out_of_wall(const dealii::Point<dim> &place, double reach) const;
+
     const std::vector<std::string> &
     body_names() const
     {
@@ -163,18 +168,19 @@ namespace undine
         const dealii::Tensor<1, dim> &velocity,
         const particles::Tag          tag);
 
-    MPI_Comm                         ranks;
-    ParticleNumerics                 particle_numerics;
-    ParticleDomain<dim>              box;
-    particles::Setup<dim>            constants;
-    particles::ParticleState<dim>    start;
-    std::vector<std::string>         names; ///< of the bodies
-    std::vector<MovingObstacle<dim>> moving;
-    std::size_t                      n_fluid = 0, n_layers = 0, n_wall = 0, n_openings = 0;
-    std::size_t                      most_fluid = 0; ///< that closed walls have room for; 0: any
-    bool                             walls_are_shown = false;
-    std::vector<std::string>         remarks;
-    PointGrid<dim>                   occupied; ///< by bodies, then also by walls
+    MPI_Comm                                                 ranks;
+    ParticleNumerics                                         particle_numerics;
+    ParticleDomain<dim>                                      box;
+    particles::Setup<dim>                                    constants;
+    particles::ParticleState<dim>                            start;
+    std::vector<std::string>                                 names; ///< of the bodies
+    std::vector<MovingObstacle<dim>>                         moving;
+    std::vector<std::unique_ptr<const SurfaceDistance<dim>>> surfaces; ///< of obstacles, at start
+    std::size_t              n_fluid = 0, n_layers = 0, n_wall = 0, n_openings = 0;
+    std::size_t              most_fluid      = 0; ///< that closed walls have room for; 0: any
+    bool                     walls_are_shown = false;
+    std::vector<std::string> remarks;
+    PointGrid<dim>           occupied; ///< by bodies, then also by walls
   };
 } // namespace undine
 

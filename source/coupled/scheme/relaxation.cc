@@ -121,7 +121,7 @@ namespace undine
       if (state.tags[k].kind() == particles::Kind::solid)
         {
           const int  identity = state.identities[k];
-          const auto moved    = state.positions[k] - setup.reference[identity];
+          const auto moved    = displacement(state, k, setup.reference[identity]);
           sum += volume * setup.bodies[setup.body_of[identity]].density * norm_square(moved);
         }
     constexpr double quarter_turn = 1.5707963267948966;

@@ -9,7 +9,7 @@ namespace undine
   namespace
   {
     const std::string positions_name = "particles/positions", guesses_name = "particles/guesses",
-                      spacing_name = "particles/spacing";
+                      spacing_name = "particles/spacing", points_name = "particles/body points";
 
 
     std::string
@@ -67,6 +67,8 @@ namespace undine
                1)};
     if (!state.guesses.empty())
       result.push_back(array_of(guesses_name, state.guesses, 1));
+    if (!state.body_points.empty())
+      result.push_back(array_of(points_name, components(state.body_points), dim));
     for (const auto &[name, values] : state.scalars)
       result.push_back(array_of(name_of_scalar(name), values, 1));
     return result;
@@ -90,6 +92,8 @@ namespace undine
     ++array;
     if (!state.guesses.empty())
       state.guesses = (array++)->values;
+    if (!state.body_points.empty())
+      set_components(state.body_points, (array++)->values);
     for (auto &[name, values] : state.scalars)
       values = (array++)->values;
   }
@@ -117,6 +121,7 @@ namespace undine
     state.tags.resize(n);
     state.identities.resize(n);
     state.guesses.resize(length(guesses_name));
+    state.body_points.resize(length(points_name)); // earlier versions do not write them
     for (auto &[name, values] : state.scalars)
       values.resize(length(name_of_scalar(name)));
   }

@@ -24,10 +24,11 @@ namespace undine
           patch.vertices[0][axis] = state.positions[k][axis];
           patch.data(row++, 0)    = state.velocities[k][axis];
         }
+      auto moved = particles::Vector<dim, double>::zero();
+      if (tag.kind() == particles::Kind::solid)
+        moved = particles::displacement(state, k, rest[identity]);
       for (unsigned int axis = 0; axis < dim; ++axis)
-        patch.data(row++, 0) = tag.kind() == particles::Kind::solid
-                                 ? state.positions[k][axis] - rest[identity][axis]
-                                 : 0;
+        patch.data(row++, 0) = moved[axis];
       patch.data(row++, 0) =
         state.pressures[k] + pressure_at_rest(model.setup(), state.positions[k]);
       patch.data(row++, 0) = static_cast<int>(tag.kind());

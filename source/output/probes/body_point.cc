@@ -45,12 +45,13 @@ namespace undine
       dealii::Tensor<1, dim> displacement, velocity;
       if (models.particles)
         {
-          const auto k = place_of_identity(state.particles, identity);
+          const auto k     = place_of_identity(state.particles, identity);
+          const auto moved = particles::displacement(
+            state.particles, k, models.particles->setup().reference[identity]);
           for (unsigned int axis = 0; axis < dim; ++axis)
             {
-              displacement[axis] = state.particles.positions[k][axis] -
-                                   models.particles->setup().reference[identity][axis];
-              velocity[axis] = state.particles.velocities[k][axis];
+              displacement[axis] = moved[axis];
+              velocity[axis]     = state.particles.velocities[k][axis];
             }
         }
       else

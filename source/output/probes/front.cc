@@ -51,7 +51,7 @@ namespace undine
       const unsigned int axis    = direction.back() - 'x';
       const auto        &box     = models.particles->domain();
       const double       spacing = box.spacing;
-      const auto         part    = main_part_of_fluid(state.particles, gap * spacing);
+      const auto         part    = main_part_of_fluid(box, state.particles, gap * spacing);
       if (part.empty()) // it has yet to begin
         return {{name, "m", sign > 0 ? box.lower[axis] : box.upper[axis]}};
       double front = -std::numeric_limits<double>::infinity();

@@ -55,20 +55,61 @@ namespace undine
 
 
   template <int dim>
-  std::vector<std::size_t>
-  main_part_of_fluid(const particles::ParticleState<dim> &state, const double gap)
+  PointsAround<dim>::PointsAround(const ParticleDomain<dim> &domain, const double reach)
+    : domain(domain)
+    , reach(reach)
+    , grid(reach)
   {
-    PointGrid<dim>           grid(gap);
+  }
+
+
+  template <int dim>
+  void
+  PointsAround<dim>::add(const dealii::Point<dim> &point)
+  {
+    std::vector<dealii::Point<dim>> images{point};
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        if (!domain.periodic(axis))
+          continue;
+        const double period = domain.upper[axis] - domain.lower[axis];
+        const auto   n      = images.size(); // in an edge there are images of images
+        for (std::size_t k = 0; k < n; ++k)
+          for (const int sign : {-1, 1})
+            {
+              auto image = images[k];
+              image[axis] += sign * period;
+              if (image[axis] > domain.lower[axis] - reach &&
+                  image[axis] < domain.upper[axis] + reach)
+                images.push_back(image);
+            }
+      }
+    for (const auto &image : images)
+      {
+        grid.add(image);
+        originals.push_back(points.size());
+      }
+    points.push_back(point);
+  }
+
+
+  template <int dim>
+  std::vector<std::size_t>
+  main_part_of_fluid(const ParticleDomain<dim>           &domain,
+                     const particles::ParticleState<dim> &state,
+                     const double                         gap)
+  {
+    PointsAround<dim>        points(domain, gap);
     std::vector<std::size_t> fluid; // numbers in the state
     for (std::size_t k = 0; k < state.tags.size(); ++k)
       if (state.tags[k].kind() == particles::Kind::fluid)
         {
           fluid.push_back(k);
-          grid.add(point_of(state.positions[k]));
+          points.add(point_of(state.positions[k]));
         }
     DisjointSets joined(fluid.size());
     for (std::size_t k = 0; k < fluid.size(); ++k)
-      grid.for_each_near(grid[k], gap, [&](const std::size_t other) {
+      points.for_each_near(k, gap, [&](const std::size_t other, double) {
         if (other < k)
           joined.join(k, other);
       });
@@ -88,14 +129,14 @@ namespace undine
   SurfaceOffset<dim>::SurfaceOffset(const ParticleModel<dim>            &model,
                                     const particles::ParticleState<dim> &state)
     : state(state)
-    , grid(model.setup().numerics.reach * model.domain().spacing)
+    , points(model.domain(), model.setup().numerics.reach * model.domain().spacing)
     , spacing(model.domain().spacing)
     , reach(model.setup().numerics.reach * spacing)
     , in_plane(particles::full_lattice(dim - 1, model.setup().numerics.reach).number_density)
     , of_all(particles::full_lattice(dim, model.setup().numerics.reach).number_density)
   {
     for (std::size_t k = 0; k < state.positions.size(); ++k)
-      grid.add(point_of(state.positions[k]));
+      points.add(point_of(state.positions[k]));
   }
 
 
@@ -104,9 +145,9 @@ namespace undine
   SurfaceOffset<dim>::operator()(const std::size_t number) const
   {
     double density = 0;
-    grid.for_each_near(grid[number], reach, [&](const std::size_t other) {
+    points.for_each_near(number, reach, [&](const std::size_t other, const double distance) {
       if (other != number && !state.tags[other].is_parked())
-        density += reach / std::max(grid[number].distance(grid[other]), 0.1 * spacing) - 1;
+        density += reach / std::max(distance, 0.1 * spacing) - 1;
     });
     return spacing * std::clamp((density - of_all / 2) / in_plane, -0.5, 0.5);
   }
@@ -117,8 +158,9 @@ namespace undine
   template double      mean_pressure(                                                                  \
          const ParticleModel<dim> &, const particles::ParticleState<dim> &, const std::vector<int> &); \
   template int nearest_of_body(const ParticleModel<dim> &, const int, const dealii::Point<dim> &);     \
-  template std::vector<std::size_t> main_part_of_fluid(const particles::ParticleState<dim> &,          \
-                                                       const double);                                  \
+  template class PointsAround<dim>;                                                                    \
+  template std::vector<std::size_t> main_part_of_fluid(                                                \
+    const ParticleDomain<dim> &, const particles::ParticleState<dim> &, const double);                 \
   template class SurfaceOffset<dim>;
 
   UNDINE_INSTANTIATE(2)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/probes/particle_queries.h>
 #include <undine/output/probes/probe.h>
+#include <undine/particle_model/plain_vector.h>
 
 #include <algorithm>
 #include <array>
@@ -64,14 +65,15 @@ namespace undine
       const double                                     within  = std::max(radius, 2 * spacing);
       const SurfaceOffset<dim>                         offset(*models.particles, state.particles);
       std::map<std::array<long, dim - 1>, std::size_t> highest; // particle, by column
-      for (const auto k : main_part_of_fluid(state.particles, gap * spacing))
+      for (const auto k : main_part_of_fluid(box, state.particles, gap * spacing))
         {
           const auto               &x      = state.particles.positions[k];
+          const auto                way    = box.way(point_of(x), point);
           double                    square = 0;
           std::array<long, dim - 1> column{};
           for (unsigned int axis = 0; axis + 1 < dim; ++axis)
             {
-              square += std::pow(x[axis] - point[axis], 2);
+              square += way[axis] * way[axis];
               column[axis] = std::lround(std::floor((x[axis] - box.lower[axis]) / spacing));
             }
           if (square > within * within)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/probes/particle_queries.h>
 #include <undine/output/probes/probe.h>
+#include <undine/particle_model/plain_vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,9 @@ namespace undine
                   radius,
                   "m",
                   Allowed::not_negative(),
-                  "Of the disc; at least the particles within half a spacing of its centre count.");
+                  "Of the disc; at least half a spacing in the plane and 0.71 in space, half the "
+                  "diagonal of a lattice's square. Of a thin wall or a corner only the side counts "
+                  "on which the point is.");
     }
 
     void
@@ -52,7 +55,9 @@ namespace undine
     }
 
   private:
-    /// Ascending. The first layer of a wall is half a spacing behind its surface.
+    /// Ascending. The first layer of a wall is half a spacing behind its surface: a particle lies
+    /// on the side on which the point is if half a spacing before it, in the direction out of the
+    /// wall at the point, there is a surface that faces the same way.
     std::vector<int>
     particles_on_disc(const ParticleModel<dim> &model) const
     {
@@ -60,6 +65,7 @@ namespace undine
       const double spacing = model.domain().spacing;
       const double along   = std::max(radius, spacing * std::sqrt(dim - 1.) / 2);
       const double reach   = (1 + 1e-6) * std::hypot(along, spacing / 2);
+      const auto   out     = model.out_of_wall(point, reach);
 
       std::vector<int> result;
       for (std::size_t k = 0; k < start.tags.size(); ++k)
@@ -67,10 +73,10 @@ namespace undine
             (start.tags[k].material() == 0 ||
              start.tags[k].material() == particles::moving_material))
           {
-            double square = 0;
-            for (unsigned int axis = 0; axis < dim; ++axis)
-              square += std::pow(start.positions[k][axis] - point[axis], 2);
-            if (square <= reach * reach)
+            const auto place = point_of(start.positions[k]);
+            const auto way   = model.domain().way(place, point);
+            if (way.norm() <= reach &&
+                model.out_of_wall(place + spacing / 2 * out, spacing / 4) * out > 0.5)
               result.push_back(start.identities[k]);
           }
       std::sort(result.begin(), result.end());

@@ -159,8 +159,9 @@ namespace undine::particles
     double fastest = 0, damped = 0;
     for (const auto &material : materials)
       {
-        const double square = double(material.lambda + 2 * material.mu) / material.density;
-        fastest             = std::max(fastest, std::sqrt(square));
+        const double square =
+          double(material.lambda + 2 * material.mu) / material.density + hourglass_square(material);
+        fastest = std::max(fastest, std::sqrt(square));
         if (material.viscosity > 0 || material.drag > 0)
           {
             const auto rate = static_cast<Real>(square / (spacing * spacing));

@@ -108,7 +108,8 @@ namespace undine::particles
     };
     if (has_sources())
       {
-        const double speed = std::max(wall_speed, inflow_speed);
+        // A wall throws what is at rest with twice its speed.
+        const double speed = std::max(2 * wall_speed, inflow_speed);
         return in_frame(in_motion(after) - had,
                         10 * had + (mass + (flows_in ? source_mass : 0)) *
                                      (speed * speed + gravity * (height + speed * length)));

@@ -38,6 +38,8 @@ namespace undine::particles
         throw InputError("the arrays of the particles differ in length.");
       if (setup.body_of.size() != n_solid || setup.clamped.size() != n_solid)
         throw InputError("the arrays of the bodies' particles differ in length.");
+      if (!state.body_points.empty() && state.body_points.size() != n_solid)
+        throw InputError("there are points for another number of particles of bodies.");
       std::vector<int> sorted = state.identities;
       std::sort(sorted.begin(), sorted.end());
       const auto twice = std::adjacent_find(sorted.begin(), sorted.end());

@@ -19,17 +19,19 @@ namespace
   const std::string scene_text =
     "subsection Particles\n set Spacing = 1\nend\n"
     "subsection Domain\n set Lower corner = 0, 0\n set Upper corner = 8, 8\nend\n"
-    "subsection Fluid\n set Density = 1000\n set Region = 3 - y\nend\n"
+    "subsection Fluid\n set Density = 1000\nend\n"
     "subsection Bodies\n subsection block\n  set Lower corner = 2, 5\n  set Upper corner = 4, 7\n"
     "  set Density = 500\n  set Young's modulus = 1e5\n  set Poisson's ratio = 0.3\n end\nend\n";
 
 
   Models<2>
-  sample_models(const std::string &more = "")
+  sample_models(const std::string &more = "", const std::string &region = "3 - y")
   {
     Models<2> models;
     models.particles = std::make_unique<const ParticleModel<2>>(
-      options_of(scene_text + more), models.effects, MPI_COMM_SELF);
+      options_of(scene_text + "subsection Fluid\n set Region = " + region + "\nend\n" + more),
+      models.effects,
+      MPI_COMM_SELF);
     return models;
   }
 
@@ -61,6 +63,17 @@ namespace
   }
 
 
+  /// Of bodies that have gone through periodic sides, and a quarter of a metre on.
+  std::vector<particles::Vector<2, double>>
+  points_a_period_ahead(const Models<2> &models)
+  {
+    auto result = models.particles->setup().reference;
+    for (auto &point : result)
+      point[0] += 8.25;
+    return result;
+  }
+
+
   Columns
   measured(const Models<2>   &models,
            const State<2>    &state,
@@ -82,8 +95,11 @@ namespace
 TEST_CASE("particles: a checkpoint read back is what was written")
 {
   const TemporaryFolder folder;
-  const auto            models = sample_models();
-  const auto            state  = sample_state(models);
+  const auto            models      = sample_models();
+  auto                  state       = sample_state(models);
+  const bool            goes_around = GENERATE(false, true); // through periodic sides
+  if (goes_around)
+    state.particles.body_points = points_a_period_ahead(models);
   write_checkpoint(folder.path, models, state);
   State<2> other;
   other.particles                  = models.particles->initial_state();
@@ -95,6 +111,9 @@ TEST_CASE("particles: a checkpoint read back is what was written")
   CHECK(a.pressures == b.pressures);
   CHECK(a.guesses == b.guesses);
   CHECK(a.scalars == b.scalars);
+  REQUIRE(a.body_points.size() == b.body_points.size());
+  for (std::size_t k = 0; k < a.body_points.size(); ++k)
+    CHECK(norm_square(a.body_points[k] - b.body_points[k]) == 0);
   for (std::size_t k = 0; k < a.positions.size(); ++k)
     {
       CHECK(a.tags[k].code == b.tags[k].code);
@@ -178,6 +197,18 @@ TEST_CASE("particles: probes of the body, the wall and the front")
 }
 
 
+TEST_CASE("particles: displacements go on through periodic sides")
+{
+  const auto models           = sample_models();
+  auto       state            = sample_state(models);
+  state.particles.body_points = points_a_period_ahead(models);
+  CHECK(measured(models, state, "body point", "set Body = block\n set Point = 2.4, 5.6")[0].value ==
+        Approx(8.25));
+  for (const auto &patch : particle_patches(*models.particles, state.particles).patches)
+    CHECK(patch.data(2, 0) == Approx(patch.data(5, 0) == 1 ? 8.25 : 0.));
+}
+
+
 TEST_CASE("particles: heights and momenta of a block are exact, single particles count little")
 {
   const auto models = sample_models();
@@ -204,6 +235,53 @@ TEST_CASE("particles: heights and momenta of a block are exact, single particles
       state.particles.positions[p][1] = 3.5;
   CHECK(measured(models, state, "front", "set Direction = y")[0].value == Approx(4));
   CHECK(height() == Approx(3));
+}
+
+
+TEST_CASE("particles: heights and fronts are seen across periodic sides")
+{
+  // A lower part of the fluid on the right goes on in a higher one on the left.
+  const std::string round  = "subsection Domain\n set Periodic sides = left, right\nend\n";
+  const auto        models = sample_models(round, "if(x < 2, 3 - y, if(x > 4, 2 - y, -1))");
+  State<2>          state;
+  state.particles = models.particles->initial_state();
+  CHECK(measured(models, state, "front", "set Direction = y")[0].value == Approx(3));
+  const auto height = [&](const Models<2> &of, const std::string &place) {
+    return measured(of, state, "surface height", "set Radius = 2\n set Point = " + place)[0].value;
+  };
+  CHECK(height(models, "8, 0") == Approx(height(models, "0, 0")));
+  CHECK(height(models, "0, 0") == Approx(2.5).margin(0.35)); // less at the ends of so few particles
+
+  // A level surface is as high beside the sides as elsewhere.
+  const auto level = sample_models(round);
+  state.particles  = level.particles->initial_state();
+  for (const std::string place : {"0.3, 0", "4, 0", "7.9, 0"})
+    CHECK(height(level, place) == Approx(3));
+}
+
+
+TEST_CASE("particles: the pressure on a wall is that on the side that is asked for")
+{
+  // Sheets of two spacings and one, and the corner between the first one and the floor. Particles
+  // have pressures that tell where they are.
+  const auto models = sample_models(
+    "subsection Obstacles\n"
+    " subsection thin\n  set Lower corner = 4, 0\n  set Upper corner = 6, 5\n end\n"
+    " subsection thinner\n  set Lower corner = 0, 6\n  set Upper corner = 2, 7\n end\nend\n");
+  State<2> state;
+  state.particles = models.particles->initial_state();
+  for (std::size_t p = 0; p < state.particles.tags.size(); ++p)
+    state.particles.pressures[p] =
+      100 * state.particles.positions[p][0] + state.particles.positions[p][1];
+  const auto pressure = [&](const std::string &place) {
+    return measured(models, state, "wall pressure", "set Radius = 1.6\n set Point = " + place)[0]
+      .value;
+  };
+  CHECK(pressure("4, 3") == Approx(450 + 3.));
+  CHECK(pressure("6, 3") == Approx(550 + 3.));
+  CHECK(pressure("1, 6") == Approx(100 + 6.5));
+  CHECK(pressure("1, 7") == Approx(100 + 6.5));
+  CHECK(pressure("3, 0") == Approx(300 - 0.5));
 }
 
 

@@ -30,11 +30,51 @@ namespace undine
   int
   nearest_of_body(const ParticleModel<dim> &model, const int body, const dealii::Point<dim> &place);
 
-  /// The fluid particles of the largest part that hangs together: no gap wider than `gap` [m].
-  /// Numbers of particles in the state.
+  /// Points in a domain, to be asked which of them are near another one, also across periodic
+  /// sides.
+  template <int dim>
+  class PointsAround
+  {
+  public:
+    /// Distances that are asked for are at most `reach` [m].
+    PointsAround(const ParticleDomain<dim> &domain, double reach);
+
+    /// Its number is that of the points added before.
+    void
+    add(const dealii::Point<dim> &point);
+
+    std::size_t
+    size() const
+    {
+      return points.size();
+    }
+
+    /// action(number, distance [m]) for all points closer to that with the number `from` than
+    /// `distance` [m], that one included.
+    template <class Action>
+    void
+    for_each_near(const std::size_t from, const double distance, const Action &action) const
+    {
+      grid.for_each_near(points[from], distance, [&](const std::size_t image) {
+        action(originals[image], points[from].distance(grid[image]));
+      });
+    }
+
+  private:
+    const ParticleDomain<dim>      &domain;
+    double                          reach;     ///< [m]
+    std::vector<dealii::Point<dim>> points;    ///< [m]
+    PointGrid<dim>                  grid;      ///< of them and their images behind periodic sides
+    std::vector<std::size_t>        originals; ///< numbers of the points, of all in the grid
+  };
+
+  /// The fluid particles of the largest part that hangs together: no gap wider than `gap` [m], also
+  /// across periodic sides. Numbers of particles in the state.
   template <int dim>
   std::vector<std::size_t>
-  main_part_of_fluid(const particles::ParticleState<dim> &state, const double gap);
+  main_part_of_fluid(const ParticleDomain<dim>           &domain,
+                     const particles::ParticleState<dim> &state,
+                     const double                         gap);
 
   /// How far the surface of the fluid is from the centres of its particles, outwards [m]: half a
   /// spacing from those in a plane surface or below it, less from single ones that protrude, by
@@ -53,7 +93,7 @@ namespace undine
 
   private:
     const particles::ParticleState<dim> &state;
-    PointGrid<dim>                       grid;
+    PointsAround<dim>                    points;
     double                               spacing, reach;   ///< [m]
     double                               in_plane, of_all; ///< number densities n1, n0 [1]
   };

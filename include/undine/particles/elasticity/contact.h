@@ -22,10 +22,12 @@ namespace undine::particles
     ElasticBodies<dim, Real> bodies;
     Neighbours<dim, Real>    neighbours; ///< of the sorted particles
     const int               *identities;
-    const int               *where; ///< sorted place of each identity
+    const int               *where;   ///< sorted place of each identity
+    const Motion<dim, Real> *motions; ///< of the sorted particles
     Real                     volume;
     int                     *counts;   ///< of partners, by identity
     int                     *partners; ///< identities, or walls' sorted places p as -1 - p
+    Real time_left = 0;                ///< until the end of the sub-step, where walls stand [s]
 
     /// Those that are near enough to touch within a sub-step. Returns how many they are.
     template <class Lanes>
@@ -72,13 +74,15 @@ namespace undine::particles
       Real frequency_square, closing_square;
     };
 
-    /// Of a particle with `count` partners. point_of(identity) is where a partner is.
+    /// Of a particle with `count` partners, `left` [s] before the end of the sub-step.
+    /// point_of(identity) is where a partner is then.
     template <class Lanes, class Points>
     UNDINE_HOST_DEVICE
     Response
     response(const int                      identity,
              const ElasticPoint<dim, Real> &point,
              const int                      count,
+             const Real                     left,
              const Lanes                   &lanes,
              const Points                  &point_of) const
     {
@@ -89,9 +93,7 @@ namespace undine::particles
         {
           const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
           const bool is_wall = partner < 0;
-          const auto other   = is_wall ? ElasticPoint<dim, Real>{neighbours.places[-1 - partner].x,
-                                                                 Vector<dim, Real>::zero()}
-                                       : point_of(partner);
+          const auto other   = is_wall ? wall_point(-1 - partner, left) : point_of(partner);
           const auto r       = distance(point.x, other.x);
           const Real square  = norm_square(r);
           const Real touch   = touching_distance(identity, is_wall ? identity : partner);
@@ -117,10 +119,12 @@ namespace undine::particles
     Response
     response(const int identity, const Lanes &lanes) const
     {
-      return response(
-        identity, bodies.points[identity], counts[identity], lanes, [&](const int partner) {
-          return bodies.points[partner];
-        });
+      return response(identity,
+                      bodies.points[identity],
+                      counts[identity],
+                      time_left,
+                      lanes,
+                      [&](const int partner) { return bodies.points[partner]; });
     }
 
     /// The change of the acceleration as particles move along u, by identity; walls stay. Of each
@@ -150,6 +154,20 @@ namespace undine::particles
     }
 
   private:
+    /// The particle of a wall at the sorted place j, `left` [s] before the end of the sub-step.
+    /// Walls that move stand where the sub-step ends, and have their mean velocity in it: were they
+    /// there from its beginning, they would enter a body by all of their way at once.
+    UNDINE_HOST_DEVICE
+    ElasticPoint<dim, Real>
+    wall_point(const int j, const Real left) const
+    {
+      const auto place = neighbours.places[j];
+      if (place.tag.material() != moving_material)
+        return {place.x, Vector<dim, Real>::zero()};
+      const auto v = motions[j].v;
+      return {place.x - left * v, v};
+    }
+
     /// To x from y, the points of bodies, which may have gone around the box several times [m].
     UNDINE_HOST_DEVICE
     Vector<dim, Real>

@@ -131,13 +131,14 @@ namespace undine::particles
     {
       const ElasticLaw<dim, Real> law{material};
       const Real                  spacing_square = elasticity.spacing * elasticity.spacing;
-      const Real                  square         = law.sound_square(F) / spacing_square +
+      const Real                  of_bonds       = hourglass_square(material);
+      const Real                  square = (law.sound_square(F) + of_bonds) / spacing_square +
                           contacts.frequency_square / static_cast<Real>(lattice_frequency_square) +
                           contacts.closing_square * closing_factor * closing_factor;
       if (material.viscosity > 0 || material.drag > 0)
         {
           const Real rate =
-            damped_rate(material, square, law.strain_rate_square(F) / spacing_square);
+            damped_rate(material, square, (law.strain_rate_square(F) + of_bonds) / spacing_square);
           return rate > static_cast<Real>(bounds.elastic_rate) ? static_cast<float>(rate) : 0.f;
         }
       return square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate)
@@ -280,6 +281,7 @@ namespace undine::particles
         {
           std::uint32_t *const measured = &control->elastic_rates[steps.taken % 2];
           std::uint32_t *const later    = &control->elastic_rates[(steps.taken + 1) % 2];
+          contact.time_left             = static_cast<Real>(steps.left);
           team.for_each_by_lanes(n, [&](const int i, const auto &lanes) {
             elasticity.deform(i, lanes);
             measure_rate(i, lanes, measured);
@@ -332,6 +334,7 @@ namespace undine::particles
       const int  n         = bodies().n;
       const Real h         = static_cast<Real>(control->dt);
       elasticity.is_damped = false;
+      contact.time_left    = 0; // forces are those at the end
       team.for_each_by_lanes(n,
                              [&](const int i, const auto &lanes) { elasticity.deform(i, lanes); });
       team.sync();

@@ -11,6 +11,23 @@ namespace undine::particles
   /// stable up to about 0.95 l0 / c_p.
   static constexpr double lattice_frequency_square = 4.4;
 
+  /// The same of the bonds' term of (P9) alone, over alpha mu / (rho l0^2). It is largest for the
+  /// shortest waves k of a lattice, which F does not see, (4 / a) sum w (1 - cos k X): 7.8 in the
+  /// plane and 8.1 in space; near surfaces of blocks and in plates it is up to 8.8 and 9.8.
+  static constexpr double hourglass_frequency_square = 9.8;
+
+  /// What alpha > 1 adds to the square of the speed of waves by which explicit steps are chosen:
+  /// with alpha = 1 the lattice's highest frequency is that above, and what is added to an energy
+  /// raises its square by at most that of its own highest frequency [m^2/s^2].
+  template <class Real>
+  UNDINE_HOST_DEVICE
+  Real
+  hourglass_square(const ElasticMaterial<Real> &material)
+  {
+    const Real factor = static_cast<Real>(hourglass_frequency_square / lattice_frequency_square);
+    return maximum(Real(0), material.hourglass - 1) * factor * material.mu / material.density;
+  }
+
   /// As in StepBounds, with damping [1/s]: where elasticity alone has the square `elastic` of that
   /// rate, and the speed of waves that belongs to viscosity has the square `viscous` over l0
   /// [1/s^2]. With omega for the former and beta = eta omega_v^2 + alpha explicit steps are stable

@@ -87,7 +87,14 @@ namespace undine::particles
     void
     fetch(ParticleState<dim> &state) const override
     {
-      with_system([&](auto &present) { give_state(state, present.arrays(), present.elastic()); });
+      const bool can_go_around =
+        std::any_of(setup.periodic, setup.periodic + dim, [](const bool is) { return is; });
+      state.body_points.clear();
+      with_system([&](auto &present) {
+        give_state(state, present.arrays(), present.elastic());
+        if (can_go_around)
+          state.body_points = points_of_bodies(present.elastic());
+      });
     }
 
     Balance<dim>

@@ -352,6 +352,7 @@ namespace undine::particles
                                 neighbours(),
                                 now.identities.data(),
                                 bodies.where.data(),
+                                now.motions.data(),
                                 constants.volume,
                                 bodies.partner_counts.data(),
                                 bodies.partners.data()},

@@ -68,6 +68,8 @@ namespace undine::particles
     int next = n_state == 0 ? 0 : *std::max_element(identities.begin(), identities.end()) + 1;
     while (identities.size() < n)
       identities.push_back(next++);
+    for (std::size_t k = 0; k < state.body_points.size(); ++k)
+      points[k].x = converted<dim, Real>(state.body_points[k]);
     arrays.places.set(places);
     arrays.motions.set(motions);
     arrays.identities.set(identities);
@@ -126,6 +128,18 @@ namespace undine::particles
       const auto more = flattened<Real>(buffer.values());
       state.guesses.insert(state.guesses.end(), more.begin(), more.end());
     });
+  }
+
+
+  /// ParticleState::body_points.
+  template <class Executor, int dim, class Real>
+  std::vector<Vector<dim, double>>
+  points_of_bodies(const ElasticArrays<Executor, dim, Real> &bodies)
+  {
+    std::vector<Vector<dim, double>> result;
+    for (const auto &point : bodies.points.values())
+      result.push_back(converted<dim, double>(point.x));
+    return result;
   }
 
 

@@ -22,6 +22,11 @@ namespace undine::particles
     /// and the walls.
     std::vector<int> identities;
 
+    /// Of the particles of bodies, by identity, where the domain has periodic sides: places as they
+    /// would be had they never been put back through those, so that bodies are whole [m]. Empty: as
+    /// `positions` say.
+    std::vector<Vector<dim, double>> body_points;
+
     /// What the method remembers besides, in an order of its own: guesses for its solvers, and what
     /// elastic bodies carry. May be empty.
     std::vector<double> guesses;
@@ -30,6 +35,20 @@ namespace undine::particles
     /// is.
     std::map<std::string, std::vector<double>> scalars;
   };
+
+
+  /// How far the particle at place k of the arrays, which is one of a body, is from a place of its
+  /// reference [m], as often as it may have gone through periodic sides.
+  template <int dim>
+  Vector<dim, double>
+  displacement(const ParticleState<dim>  &state,
+               const std::size_t          k,
+               const Vector<dim, double> &reference)
+  {
+    const auto &x =
+      state.body_points.empty() ? state.positions[k] : state.body_points[state.identities[k]];
+    return x - reference;
+  }
 } // namespace undine::particles
 
 #endif

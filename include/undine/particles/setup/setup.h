@@ -67,7 +67,7 @@ namespace undine::particles
     double density         = 1000; ///< [kg/m^3]
     double youngs_modulus  = 1e5;  ///< [Pa]
     double poissons_ratio  = 0.3;  ///< [1]
-    double hourglass       = 1;    ///< alpha of Elasticity [1]
+    double hourglass       = 1;    ///< alpha of Elasticity, >= 0 [1]
     double damping         = 0.02; ///< share of critical damping of bonds [1]
     double bulk_damping    = 0.2;  ///< of sound, as a share of rho c_p l0 [1]
     double contact_modulus = 0;    ///< [Pa]; 0: lambda + 2 mu
