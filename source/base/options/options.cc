@@ -213,6 +213,11 @@ namespace undine
       }
     if (unknown_section)
       std::for_each(sections_of_others.begin(), sections_of_others.end(), insert_section);
+    if (unknown_section && names.count(word) > 0)
+      return InputError(
+        store->file.at(full_path).place + ": " + section_label(place) + ", subsection '" + word +
+        "': it belongs to something that the scene does not choose. Try: remove it, or "
+        "choose that, as in 'Output / Parts'.");
     const std::vector<std::string> known(names.begin(), names.end());
     const std::string              guess   = did_you_mean(known, word);
     std::string                    allowed = most_similar_first(known, word);

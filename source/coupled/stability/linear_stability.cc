@@ -99,6 +99,10 @@ namespace undine
     double
     spectral_radius(const Map &map, const Vector &first, const double tolerance)
     {
+      // PARPACK fails on ranks without rows, and on these alone.
+      if (dealii::Utilities::MPI::min(first.locally_owned_size(), first.get_mpi_communicator()) ==
+          0)
+        return std::numeric_limits<double>::quiet_NaN();
       const unsigned int    few = std::min<unsigned int>(n_arnoldi_vectors, first.size() - 1);
       dealii::SolverControl control(most_restarts, tolerance, false, false);
       Parpack               solver(control,
