@@ -16,10 +16,10 @@ import sys
 import tempfile
 import time
 
-from study import earlier, knobs, runs
+from study import earlier, knobs
 from study.description import Study
 from study.duration import duration
-from study.pilot import Pilot, Refused, quantity_of
+from study.pilot import Destination, Pilot, Refused, quantity_of
 from study.search import Search
 from study.tables import percent, table
 
@@ -43,7 +43,7 @@ def report(search):
     lines += [f"note: {remark}" for remark in level.remarks]
     lines += [f"note: '{key}' has a single cell along an axis in all runs: what that does to the error is not known"
               for knob, factor in parts for key in knob.single_cells(factor)]
-    lines += [f"this run: {pilot.costs[setting]:.3g} core s; {count} others before: {others:.3g} core s",
+    lines += [f"this run: {pilot.cost_with_outputs(setting):.3g} core s; {count} others before: {others:.3g} core s",
               f"half of the error would take {'about' if is_enough else 'more than'} {half:.3g} core s"]
     return "\n".join(lines)
 
@@ -114,30 +114,20 @@ def main(words):
         refuse_folder(output)
     with tempfile.TemporaryDirectory() as folder:
         pilot = Pilot(options.program, study, lambda columns: quantity_of(options.of or default_column(columns),
-                                                                          options.measure, columns), folder, deadline)
+                                                                          options.measure, columns), folder, deadline,
+                      Destination(output, written, options.overwrite))
         known = earlier.load(pilot, all_knobs, found, same_probes=not options.of)
         if known:
             print(f"{known} runs of earlier studies of this scene in '{earlier.FOLDER}' are used", file=sys.stderr)
-        tries, under_way = [], []
-
-        def run_with_outputs(setting):
-            words = [options.program, options.scene, "--output", output, *runs.assignments(written)]
-            words += ["--overwrite"] * (options.overwrite or bool(tries))
-            tries.append(setting)
-            under_way.append(setting)
-            found = pilot.run_with_outputs(setting, words, output)
-            under_way.pop()
-            return found
-
         try:
-            search = Search(pilot, all_knobs, options.accuracy, run_with_outputs)
+            search = Search(pilot, all_knobs, options.accuracy)
             search.run()
         except Refused as reason:
-            left = f" What is in '{output}' is less accurate." if tries else ""
+            left = f" What is in '{output}' is less accurate." if pilot.has_outputs else ""
             sys.exit(f"\nError: an error of {percent(options.accuracy)} was not reached: {reason}.{left}")
         except KeyboardInterrupt:
-            print("\nstopped; " + (f"'./undine resume {output}' goes on with the run that was under way" if under_way else
-                                   f"what is in '{output}' is less accurate" if tries else "there is no result yet"), file=sys.stderr)
+            print("\nstopped; " + (f"'./undine resume {output}' goes on with the run that was under way" if pilot.under_way else
+                                   f"what is in '{output}' is less accurate" if pilot.has_outputs else "there is no result yet"), file=sys.stderr)
             sys.exit(130)
         print(report(search))
         print(f"results: {output}")

@@ -80,7 +80,7 @@ class Level:
         order = order_to_use(seen, before, knob)
         falls = difference < LARGE and not (seen is not None and math.isnan(seen))
         return Part(values[1] - values[0], ratio, factors[0], order, knob.order,
-                    self.growth(chain, ratio, before, knob), knob.growth, seen, falls)
+                    self.growth(chain, ratio, knob), knob.growth, seen, falls)
 
     def part_before(self, k):
         """That of an earlier level, in sizes that the quantity has with the setting of this one; None without any."""
@@ -89,10 +89,8 @@ class Level:
         part = self.before.model.parts[k]
         return replace(part, difference=part.difference * (self.before.scale / self.scale))
 
-    def growth(self, chain, ratio, before, knob):
-        """Of the cost; outputs hide it."""
-        if self.setting in self.pilot.have_outputs:
-            return before.growth if before else knob.growth
+    def growth(self, chain, ratio, knob):
+        """Of the cost without outputs."""
         seen = math.log(self.pilot.costs[chain[0]] / self.pilot.costs[chain[1]]) / math.log(ratio)
         return min(max(seen, SMALLEST_GROWTH), STEEPEST_GROWTH * knob.growth)
 

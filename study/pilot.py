@@ -6,8 +6,11 @@ import time
 from dataclasses import dataclass, field
 
 from study import quantities, runs
-from study.columns import NotEvaluated, read
+from study.columns import NotEvaluated, phases, read
 from study.description import AXES, Quantity
+
+
+LEAST_COST = 1e-3  # core seconds; less cannot be told
 
 
 class Refused(Exception):
@@ -43,21 +46,43 @@ def quantity_of(name, measure, columns=()):
                     reference_factor=1.0, scale=0.0, **texts)
 
 
+@dataclass
+class Destination:
+    """Where the runs go that have all outputs of the scene, one in the place of the other."""
+    folder: str
+    written: dict  # {"Section/Key": value} of outputs, which coarse runs do without
+    overwrite: bool  # may they replace what the user has in the folder?
+
+
+def seconds_of_outputs(result, folder):
+    """Core seconds that a run in a folder has spent on outputs, which settings have little to do with: of the clock's, which
+    the file `timing` has, the share that the run has had of a processor."""
+    wall = result.get("wall seconds", 0.0)
+    share = min(1.0, result["core seconds"] / wall) if wall > 0 else 1.0
+    return share * phases(os.path.join(folder, "timing")).get("output", 0.0)
+
+
 class Pilot:
     """Makes runs of a scene and remembers what they gave. Folders of coarse runs are in `folder`. `choose`: the quantity
     that is to be accurate, by the columns of the first run."""
 
-    def __init__(self, program, study, choose, folder, deadline):
+    def __init__(self, program, study, choose, folder, deadline, destination=None):
         self.program, self.study, self.choose, self.quantity = program, study, choose, None
-        self.folder, self.deadline = folder, deadline
-        self.values, self.costs, self.failures = {}, {}, {}
-        self.have_outputs = set()  # settings whose cost is that of a run with outputs
-        self.made = []  # settings run here, in the place of those that are taken from earlier studies
+        self.folder, self.deadline, self.destination = folder, deadline, destination
+        self.values, self.costs, self.failures = {}, {}, {}  # costs: core seconds without those of the start and of outputs
+        self.made = []  # (setting, core seconds) of runs made here, in the place of those that are taken from earlier studies
+        self.under_way = None  # the setting of a run with outputs
+        self.has_outputs = False  # has there been one?
 
     def cost_of_others(self, setting):
-        """Core seconds and number of all runs made but that of a setting."""
-        others = [each for each in self.made if each != setting]
-        return sum(self.costs[each] for each in others), len(others)
+        """Core seconds and number of all runs made but the last one of a setting."""
+        last = max((k for k, (each, _) in enumerate(self.made) if each == setting), default=None)
+        others = [seconds for k, (_, seconds) in enumerate(self.made) if k != last]
+        return sum(others), len(others)
+
+    def cost_with_outputs(self, setting):
+        """Core seconds of the last run of a setting."""
+        return next(seconds for each, seconds in reversed(self.made) if each == setting)
 
     def limit(self):
         """Seconds that a run may take; 0: as many as it likes."""
@@ -67,26 +92,31 @@ class Pilot:
         """Values of the quantity with a setting; None if the run has failed."""
         if setting not in self.costs:
             folder = os.path.join(self.folder, f"{len(self.costs)}")
-            self.made.append(setting)
-            self.take(setting, runs.once(self.program, self.study, setting, folder, self.limit()),
-                      os.path.join(folder, "run"))
+            result = runs.once(self.program, self.study, setting, folder, self.limit())
+            self.made.append((setting, result["core seconds"]))
+            self.take(setting, result, os.path.join(folder, "run"))
         return self.values.get(setting)
 
-    def run_with_outputs(self, setting, words, folder):
+    def run_with_outputs(self, setting):
         """The same with all outputs that the scene asks for, in the user's folder; None if the run has failed."""
-        self.have_outputs.add(setting)
-        words = words + runs.assignments(setting.settings(self.study))
-        self.made.append(setting)
+        folder = self.destination.folder
+        words = [self.program, self.study.file, "--output", folder]
+        words += ["--overwrite"] * (self.destination.overwrite or self.has_outputs)
+        words += runs.assignments({**self.destination.written, **setting.settings(self.study)})
+        self.has_outputs, self.under_way = True, setting
         with open(os.path.join(self.folder, "printed"), "w+") as printed:
             result = runs.execute(words, self.limit(), printed)
-        self.take(setting, {**result, **runs.summary_of(os.path.join(folder, "summary.json"))}, folder)
+        self.under_way = None
+        result.update(runs.summary_of(os.path.join(folder, "summary.json")))
+        self.made.append((setting, result["core seconds"]))
+        self.take(setting, result, folder)
         return self.values.get(setting)
 
     def take(self, setting, result, folder):
         """Note what a run in a folder has given."""
         if result["stopped"]:
             raise Refused("the time allowed is over")
-        self.costs[setting] = result["core seconds"]
+        self.costs[setting] = max(result["core seconds"] - seconds_of_outputs(result, folder), LEAST_COST)
         said = result["failure"]
         print(f"  {setting.name(self.study)}: {said or format(result['core seconds'], '.3g') + ' core s'}", file=sys.stderr,
               flush=True)

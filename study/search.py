@@ -106,11 +106,11 @@ def next_setting(level, wanted):
 
 
 class Search:
-    """Levels and the settings tried between them. The last setting is accurate enough, and its run, by `run_with_outputs`,
-    is the one that the user gets. Raises Refused."""
+    """Levels and the settings tried between them. The last setting is accurate enough, and its run, with outputs, is the one
+    that the user gets. Raises Refused."""
 
-    def __init__(self, pilot, all_knobs, wanted, run_with_outputs):
-        self.pilot, self.wanted, self.run_with_outputs = pilot, wanted, run_with_outputs
+    def __init__(self, pilot, all_knobs, wanted):
+        self.pilot, self.wanted = pilot, wanted
         self.all_knobs, self.levels = all_knobs, []
         self.setting, self.error = None, math.inf
 
@@ -127,7 +127,7 @@ class Search:
         if setting == level.setting and not is_foretold:
             raise Refused(f"nothing can be refined further: the error is still about {percent(level.error())}")
         self.refuse_what_takes_too_long(setting)
-        if self.run_with_outputs(setting) is None:
+        if self.pilot.run_with_outputs(setting) is None:
             raise Refused(f"the run with {setting.name(self.pilot.study)} fails: {self.pilot.failures[setting]}")
         self.setting = setting
         error = level.confirmed_error(setting) if is_foretold else None

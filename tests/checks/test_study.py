@@ -23,7 +23,7 @@ from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
 from study.error_model import ErrorModel, Part  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of  # noqa: E402
-from study.pilot import Refused, quantity_of  # noqa: E402
+from study.pilot import Destination, Pilot, Refused, Setting, quantity_of  # noqa: E402
 from study.search import Search, cheapest  # noqa: E402
 
 
@@ -386,7 +386,6 @@ class FakePilot:
         self.sizes, self.orders, self.deadline, self.noise = sizes, orders, deadline, noise
         self.times_of_rows, self.values, self.costs, self.failures = numpy.linspace(0, 1, 11), {}, {}, {}
         self.study, self.quantity = study(), quantity(evaluate="over time")
-        self.have_outputs = set()
 
     def exact(self):
         return numpy.cos(self.times_of_rows)
@@ -401,6 +400,9 @@ class FakePilot:
         self.costs[setting] = math.prod(factor ** (self.steep * knob.growth) for knob, factor in zip(setting.knobs, setting.factors))
         self.values[setting] = quantities.Values(self.times_of_rows, (self.exact() + self.error(setting))[:, None])
         return self.values[setting]
+
+    def run_with_outputs(self, setting):
+        return self.run(setting)
 
     def times(self, _):
         return self.times_of_rows
@@ -553,7 +555,7 @@ class Accuracy(unittest.TestCase):
         with open(os.devnull, "w") as nowhere:
             before, sys.stderr = sys.stderr, nowhere
             try:
-                search = Search(pilot, of, wanted, pilot.run)
+                search = Search(pilot, of, wanted)
                 search.run()
                 return search
             finally:
@@ -659,6 +661,41 @@ class Accuracy(unittest.TestCase):
             limited = (dataclasses.replace(step, longest=0.005), cells)
             found = self.search(FakePilot((1e-4, 0.03), (2, 2)), wanted, limited)
             self.assertGreaterEqual(found.setting.factors[0], 2 * (1 - 1e-9))
+
+    def test_the_growth_of_the_cost_is_seen_of_runs_with_outputs_too(self):
+        """By the way that users take: each run leaves files of numbers, costs what settings make expect but for first runs that
+        are too short to tell, and spends as much again on outputs, if it has any."""
+        fake = FakePilot((0.2, 0.3), (2, 2))
+
+        def leave(folder, words, outputs):
+            step, cells = (next(word for word in words if word.startswith(key)).split("=")[1] for key in ("Time/Step", "Domain/Cells"))
+            setting = Setting(self.knobs, (0.01 / float(step), float(cells.split(",")[0]) / 4000))
+            values = fake.run(setting).values[:, 0]
+            seconds = max(fake.costs[setting], 1.0)
+            os.makedirs(folder, exist_ok=True)
+            with open(os.path.join(folder, "statistics"), "w") as file:
+                file.write("# 1: Time [s]\n# 2: a [1]\n" + "".join(f"{t:.12g} {v:.12g}\n" for t, v in zip(fake.times_of_rows, values)))
+            with open(os.path.join(folder, "timing"), "w") as file:
+                file.write(f"fluid   1   {seconds:.4f}   50.0\noutput   1   {outputs:.4f}   50.0\n  vtu   1   {outputs:.4f}   50.0\n")
+            cost = seconds + outputs
+            return {"failure": "", "stopped": False, "exit code": 0, "core seconds": cost, "wall seconds": cost}
+
+        def once(_program, of_study, setting, folder, _limit):
+            return leave(os.path.join(folder, "run"), [f"{key}={value}" for key, value in setting.settings(of_study).items()], 0.0)
+
+        def execute(words, _limit, _printed):
+            return leave(words[words.index("--output") + 1], words, 50.0)
+
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(io.StringIO()), \
+                unittest.mock.patch.object(runs, "once", once), unittest.mock.patch.object(runs, "execute", execute):
+            pilot = Pilot("program", study(), lambda _: quantity_of("a", "over time"), folder, None,
+                          Destination(os.path.join(folder, "results"), {}, False))
+            search = Search(pilot, self.knobs, 0.002)
+            search.run()
+        self.assertGreater(len(search.levels), 1)
+        for part, knob in zip(search.levels[-1].model.parts, self.knobs):
+            self.assertAlmostEqual(part.growth, knob.growth, delta=0.1)
+        self.assertGreater(pilot.cost_with_outputs(search.setting), pilot.costs[search.setting] + 40)
 
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
