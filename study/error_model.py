@@ -34,10 +34,11 @@ class Part:
 
 
 class ErrorModel:
-    """(Q3), (Q4): errors and costs of factors that are near those of the parts."""
+    """(Q3), (Q4): errors and costs of factors that are near those of the parts. `overhead`: of the cost of their setting,
+    what does not grow."""
 
-    def __init__(self, parts):
-        self.parts = parts
+    def __init__(self, parts, overhead=0.0):
+        self.parts, self.overhead = parts, overhead
         self.factors = numpy.array([part.factor for part in parts])
         self.orders = numpy.array([part.order for part in parts])
         errors = [part.error() for part in parts]
@@ -68,7 +69,8 @@ class ErrorModel:
 
     def cost(self, factors):
         """In costs of the setting of the parts, as they have been seen to grow."""
-        return numpy.prod((factors / self.factors) ** [part.growth for part in self.parts], axis=-1)
+        growing = numpy.prod((factors / self.factors) ** [part.growth for part in self.parts], axis=-1)
+        return self.overhead + (1 - self.overhead) * growing
 
     def expected_cost(self, factors):
         """The same as they should grow, were runs long."""

@@ -12,8 +12,8 @@ SMALLEST_ORDER = 0.7
 UNSEEN_ORDER = 1.5  # a prudent one, where none has been seen
 APART = 1.4  # factor between two settings that can tell an order
 LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of smaller ones
-SMALLEST_GROWTH = 0.3  # of cost; less is seen of runs that are too short to tell
-STEEPEST_GROWTH = 1.5  # in growths expected
+SLOWEST_GROWTH, STEEPEST_GROWTH = 0.5, 1.5  # of cost, in growths expected; others are noise
+MOST_OVERHEAD = 0.9  # of the cheapest run
 ALIKE_ORDERS = 0.3  # largest difference
 ALIKE = 0.6  # of a change, what may not have been foretold
 
@@ -64,8 +64,10 @@ class Level:
         self.scale = convergence.norm(own)
         if self.scale == 0:
             raise Refused("the quantity is zero all the time: choose another one with --of")
-        self.model = ErrorModel([self.part(k, chain, [each / self.scale for each in self.pilot.compare(chain, self.times)])
-                                 for k, chain in enumerate(chains)])
+        self.overhead = self.find_overhead(chains)
+        parts = [self.part(k, chain, [each / self.scale for each in self.pilot.compare(chain, self.times)])
+                 for k, chain in enumerate(chains)]
+        self.model = ErrorModel(parts, self.overhead / self.pilot.costs[self.setting])
         self.remarks = [f"{knob.name}: values do not come closer yet"
                         for knob, part in zip(self.setting.knobs, self.model.parts) if not part.falls]
 
@@ -90,9 +92,19 @@ class Level:
         return replace(part, difference=part.difference * (self.before.scale / self.scale))
 
     def growth(self, chain, ratio, knob):
-        """Of the cost without outputs."""
-        seen = math.log(self.pilot.costs[chain[0]] / self.pilot.costs[chain[1]]) / math.log(ratio)
-        return min(max(seen, SMALLEST_GROWTH), STEEPEST_GROWTH * knob.growth)
+        """Of the cost without outputs and what does not grow."""
+        fine, coarse = (self.pilot.costs[each] - self.overhead for each in chain[:2])
+        seen = math.log(fine / coarse) / math.log(ratio)
+        return min(max(seen, SLOWEST_GROWTH * knob.growth), STEEPEST_GROWTH * knob.growth)
+
+    def find_overhead(self, chains):
+        """What all runs cost alike: what is left of coarser ones by the growths expected, the least of them all, and a little
+        less than the cheapest run."""
+        found = [MOST_OVERHEAD * min(self.pilot.costs[each] for each in self.pilot.values)]
+        for k, (own, neighbour, *_) in enumerate(chains):
+            share = (neighbour.factors[k] / own.factors[k]) ** own.knobs[k].growth
+            found.append((self.pilot.costs[neighbour] - share * self.pilot.costs[own]) / (1 - share))
+        return max(0.0, min(found))
 
     def error(self):
         """Relative."""

@@ -23,6 +23,7 @@ from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
 from study.error_model import ErrorModel, Part  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of  # noqa: E402
+from study.level import Level  # noqa: E402
 from study.pilot import Destination, Pilot, Refused, Setting, quantity_of  # noqa: E402
 from study.search import Search, cheapest  # noqa: E402
 
@@ -381,8 +382,8 @@ class Repetitions(unittest.TestCase):
 class FakePilot:
     """Runs whose errors are powers of the factors, of a value over time, and which cost what is expected."""
 
-    def __init__(self, sizes, orders, deadline=None, noise=0.0, steep=1.0):
-        self.steep = steep  # factor of the exponents of cost
+    def __init__(self, sizes, orders, deadline=None, noise=0.0, steep=1.0, overhead=0.0):
+        self.steep, self.overhead = steep, overhead  # factor of the exponents of cost; what does not grow
         self.sizes, self.orders, self.deadline, self.noise = sizes, orders, deadline, noise
         self.times_of_rows, self.values, self.costs, self.failures = numpy.linspace(0, 1, 11), {}, {}, {}
         self.study, self.quantity = study(), quantity(evaluate="over time")
@@ -397,7 +398,7 @@ class FakePilot:
         return parts + self.noise * numpy.cos(100 * sum(setting.factors) * self.times_of_rows)
 
     def run(self, setting):
-        self.costs[setting] = math.prod(factor ** (self.steep * knob.growth) for knob, factor in zip(setting.knobs, setting.factors))
+        self.costs[setting] = self.overhead + math.prod(factor ** (self.steep * knob.growth) for knob, factor in zip(setting.knobs, setting.factors))
         self.values[setting] = quantities.Values(self.times_of_rows, (self.exact() + self.error(setting))[:, None])
         return self.values[setting]
 
@@ -629,6 +630,23 @@ class Accuracy(unittest.TestCase):
                             for a in grid for b in grid]
                 accurate = [a for a in settings if pilot.run(a) is not None and pilot.true_error(a) <= wanted]
                 self.assertLess(cost, 2 * min(pilot.costs[each] for each in accurate), f"orders {orders}, {wanted}")
+
+    def test_what_does_not_grow_of_the_cost_is_told_from_what_does(self):
+        for overhead in (0, 0.01, 0.05, 100):
+            pilot = FakePilot((0.2, 0.3), (2, 2), overhead=overhead)
+            level = Level(pilot, self.first_setting(pilot))
+            for factors in ((0.5, 0.5), (1, 0.25), (0.25, 0.5)):
+                setting = Setting(self.knobs, factors)
+                pilot.run(setting)
+                foretold = pilot.costs[level.setting] * level.model.cost(numpy.array(factors))
+                self.assertLess(abs(math.log(foretold / pilot.costs[setting])), math.log(1.5), f"overhead {overhead}, {factors}")
+            for part, knob in zip(level.model.parts, self.knobs):
+                self.assertLessEqual(abs(part.growth / knob.growth - 1), 0.5)
+
+    def first_setting(self, pilot):
+        setting = Setting(self.knobs, (0.25, 0.25))
+        pilot.run(setting)
+        return setting
 
     def test_runs_before_the_last_one_are_cheap(self):
         for wanted in (0.01, 0.002, 0.0005):
