@@ -133,6 +133,13 @@ def spacing(found, dimension):
                 common_length(sides + lengths_in(found, own[0])))
 
 
+def order_in_time(found):
+    """Of the error that the integrator of a scene promises."""
+    weights = {"theta": "Time/Theta", "newmark": "Time/Gamma"}  # of second order with one half only
+    weight = found.get(weights.get(found.get("Time/Integrator")), "0.5")
+    return 1.0 if found["Scheme"] == "time_splitting" or float(weight) != 0.5 else 2.0
+
+
 def knobs_of(found):
     """All that the parameters of a scene have, by name."""
     dimension = int(found["Dimension"])
@@ -142,7 +149,7 @@ def knobs_of(found):
         return [spacing(found, dimension)]
     result = []
     if found.get("Time/Integrator") != "static":
-        result.append(Knob("time step", {"Time/Step": numbers(found["Time/Step"])}, 2.0, 1.0, False,
+        result.append(Knob("time step", {"Time/Step": numbers(found["Time/Step"])}, order_in_time(found), 1.0, False,
                            longest=float(found.get("Output/Interval", 0))))
     planes = [key for key in ("Domain/Planes x", "Domain/Planes y", "Domain/Planes z") if found.get(key)]
     if planes:

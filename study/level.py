@@ -134,14 +134,14 @@ class Level:
 
 
 def order_to_use(seen, before, knob):
-    """The one seen if an earlier level shows the same. One seen once is noisy: in the middle between it and the one expected;
-    one greater than that is chance. A prudent one if none has been seen."""
+    """The one seen, in the middle with that of an earlier level if this shows the same; one greater than expected is chance.
+    A prudent one if none has been seen."""
     if seen is None:
         return min(knob.order, UNSEEN_ORDER)
     if math.isnan(seen):
         return SMALLEST_ORDER
     confirmed = before and before.seen is not None and abs(seen - before.seen) < ALIKE_ORDERS
-    order = (seen + before.seen) / 2 if confirmed else (seen + knob.order) / 2
+    order = (seen + before.seen) / 2 if confirmed else seen
     return min(max(order, SMALLEST_ORDER), knob.order)
 
 

@@ -23,7 +23,7 @@ from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
 from study.error_model import ErrorModel, Part  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of  # noqa: E402
-from study.level import Level  # noqa: E402
+from study.level import SMALLEST_ORDER, UNSEEN_ORDER, Level, order_to_use  # noqa: E402
 from study.pilot import Destination, Pilot, Refused, Setting, quantity_of  # noqa: E402
 from study.search import Search, cheapest  # noqa: E402
 
@@ -736,6 +736,19 @@ class Accuracy(unittest.TestCase):
         with self.assertRaises(SystemExit) as refused:
             knobs_of({**found, "Domain/Planes y": "planes.txt"})
         self.assertIn("Planes y", str(refused.exception))
+
+    def test_orders_in_time_are_those_of_integrators(self):
+        for changed, order in (({}, 2), ({"Time/Integrator": "theta", "Time/Theta": "0.6"}, 1),
+                               ({"Time/Integrator": "theta", "Time/Theta": "0.5"}, 2), ({"Scheme": "time_splitting"}, 1),
+                               ({"Time/Integrator": "newmark", "Time/Gamma": "0.5"}, 2),
+                               ({"Time/Integrator": "newmark", "Time/Gamma": "0.7"}, 1), ({"Time/Integrator": "generalised_alpha"}, 2)):
+            found = {"Dimension": "2", "Scheme": "simultaneous", "Time/Step": "0.1", "Time/Integrator": "trapezoid_bdf2", **changed}
+            self.assertEqual(knobs_of(found)[0].order, order, changed)
+
+    def test_no_order_is_used_above_the_one_seen_unless_it_is_seen_again(self):
+        knob = self.knobs[0]
+        for seen, used in ((1.0, 1.0), (1.6, 1.6), (3.0, 2.0), (0.2, SMALLEST_ORDER), (None, UNSEEN_ORDER), (math.nan, SMALLEST_ORDER)):
+            self.assertEqual(order_to_use(seen, None, knob), used)
 
     def test_spacings_of_particles_divide_the_domain(self):
         self.assertAlmostEqual(common_length([1, 0.8]), 0.2)
