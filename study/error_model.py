@@ -19,6 +19,7 @@ class Part:
     expected_growth: float
     seen: float = None  # the order that values show; nan: they do not come closer
     falls: bool = True  # do values come closer?
+    is_sure: bool = False  # has the order been seen at several factors, alike?
 
     def error(self):
         """What is missing from the limit."""

@@ -15,6 +15,7 @@ LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of sma
 SLOWEST_GROWTH, STEEPEST_GROWTH = 0.5, 1.5  # of cost, in growths expected; others are noise
 MOST_OVERHEAD = 0.9  # of the cheapest run
 ALIKE_ORDERS = 0.3  # largest difference
+GROWN = 1.5  # a difference, of that foretold, which is no longer that of the order
 ALIKE = 0.6  # of a change, what may not have been foretold
 
 
@@ -77,12 +78,14 @@ class Level:
         ratio, difference = factors[0] / factors[1], convergence.norm(values[1] - values[0])
         before = self.part_before(k)
         seen = order_between(before, difference, ratio, factors[0]) if before else None
+        is_new = seen is not None and can_tell_order(before, difference, factors[0])
         if seen is None and len(chain) > 2 and difference > 0:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
-        order = order_to_use(seen, before, knob)
+        is_sure = bool(before and before.is_sure) if not is_new else is_alike(seen, before.seen)
+        order = order_to_use(seen, before if is_new and is_sure else None, knob)
         falls = difference < LARGE and not (seen is not None and math.isnan(seen))
         return Part(values[1] - values[0], ratio, factors[0], order, knob.order,
-                    self.growth(chain, ratio, knob), knob.growth, seen, falls)
+                    self.growth(chain, ratio, knob), knob.growth, seen, falls, is_sure)
 
     def part_before(self, k):
         """That of an earlier level, in sizes that the quantity has with the setting of this one; None without any."""
@@ -133,24 +136,34 @@ class Level:
         return error * max(1.0, more) * self.scale / convergence.norm(other)
 
 
-def order_to_use(seen, before, knob):
-    """The one seen, in the middle with that of an earlier level if this shows the same; one greater than expected is chance.
+def can_tell_order(before, difference, factor):
+    """Can a difference at a factor and that of an earlier part tell an order?"""
+    return not 1 / APART < factor / before.factor < APART and difference > 0 and convergence.norm(before.difference) > 0
+
+
+def is_alike(one, other):
+    """Do two orders, None if not seen, confirm each other?"""
+    return one is not None and other is not None and abs(one - other) < ALIKE_ORDERS
+
+
+def order_to_use(seen, confirmed_by, knob):
+    """The one seen, in the middle with that of an earlier level that shows the same; one greater than expected is chance.
     A prudent one if none has been seen."""
     if seen is None:
         return min(knob.order, UNSEEN_ORDER)
     if math.isnan(seen):
         return SMALLEST_ORDER
-    confirmed = before and before.seen is not None and abs(seen - before.seen) < ALIKE_ORDERS
-    order = (seen + before.seen) / 2 if confirmed else seen
+    order = (seen + confirmed_by.seen) / 2 if confirmed_by else seen
     return min(max(order, SMALLEST_ORDER), knob.order)
 
 
 def order_between(before, difference, ratio, factor):
-    """p of differences C s^-p (r^p - 1) at two factors; that of before if these are too close to tell one; None if none was
-    seen, nan if differences do not fall."""
+    """p of differences C s^-p (r^p - 1) at two factors, nan if they do not fall. If these are too close to tell one, that of
+    before, as long as the difference is what it foretells; None if none was seen."""
     earlier = convergence.norm(before.difference)
-    if 1 / APART < factor / before.factor < APART or not (earlier > 0 and difference > 0):
-        return before.seen if before.falls else None
+    if not can_tell_order(before, difference, factor):
+        foretold = earlier * (factor / before.factor) ** -before.order * (ratio ** before.order - 1) / (before.ratio ** before.order - 1)
+        return before.seen if before.falls and difference <= GROWN * foretold else None
     coarse, fine = sorted(((before.factor, before.ratio, earlier), (factor, ratio, difference)))
     pairs = [(ratio / factor, 1 / factor) for factor, ratio, _ in (coarse, fine)]
     return convergence.order_of_pairs(*pairs, coarse[2], fine[2])

@@ -23,7 +23,7 @@ from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
 from study.error_model import ErrorModel, Part  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of  # noqa: E402
-from study.level import SMALLEST_ORDER, UNSEEN_ORDER, Level, order_to_use  # noqa: E402
+from study.level import SMALLEST_ORDER, UNSEEN_ORDER, Level, order_between, order_to_use  # noqa: E402
 from study.pilot import Destination, Pilot, Refused, Setting, quantity_of  # noqa: E402
 from study.search import Search, cheapest  # noqa: E402
 
@@ -749,6 +749,22 @@ class Accuracy(unittest.TestCase):
         knob = self.knobs[0]
         for seen, used in ((1.0, 1.0), (1.6, 1.6), (3.0, 2.0), (0.2, SMALLEST_ORDER), (None, UNSEEN_ORDER), (math.nan, SMALLEST_ORDER)):
             self.assertEqual(order_to_use(seen, None, knob), used)
+
+    def test_an_order_is_confirmed_by_differences_at_other_factors_only(self):
+        before = Part(numpy.array([1e-2]), 2, 1.0, 1.0, 2.0, 1, 1, seen=1.0)
+        self.assertEqual(order_between(before, 0.9e-2, 2, 1.1), 1.0)
+        self.assertIsNone(order_between(before, 1e-1, 2, 1.1))  # differences have grown at the same factor
+        self.assertAlmostEqual(order_between(before, 0.5e-2, 2, 2.0), 1.0)
+        pilot = FakePilot((0.2, 0.3), (1.3, 1.3))
+        levels = []
+        for factors in ((0.25, 0.25), (0.27, 0.25), (0.6, 0.25)):
+            setting = Setting(self.knobs, factors)
+            pilot.run(setting)
+            levels.append(Level(pilot, setting, *levels[-1:]))
+            levels[-1].see_orders()
+        self.assertEqual([[part.is_sure for part in level.model.parts] for level in levels], [[False, False], [False, False], [True, False]])
+        for part in levels[-1].model.parts:
+            self.assertAlmostEqual(part.seen, 1.3, 6)
 
     def test_spacings_of_particles_divide_the_domain(self):
         self.assertAlmostEqual(common_length([1, 0.8]), 0.2)
