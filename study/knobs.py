@@ -55,7 +55,7 @@ class Knob:
     def coarsest(self):
         """The smallest factor that is sensible: whole numbers of cells can fall along all axes alike."""
         if not self.counts:
-            return 1 / 64
+            return max(1 / 64, next(iter(self.values.values()))[0] / self.multiple if self.multiple else 0.0)
         largest = min(max(values) for values in self.values.values())
         smallest = min((value for values in self.values.values() for value in values if value > 1), default=largest)
         return min(1.0, max(FEWEST_CELLS / largest, 1 / smallest))

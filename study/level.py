@@ -20,7 +20,11 @@ ALIKE = 0.6  # of a change, what may not have been foretold
 
 
 class NoCoarserRun(Refused):
-    """Nothing can be told of a setting, since what is coarser fails."""
+    """Nothing can be told of a setting, since what is coarser in one thing, the knob of a number, fails."""
+
+    def __init__(self, reason, number):
+        super().__init__(reason)
+        self.number = number
 
 
 def coarser_neighbour(pilot, setting, k, ratio):
@@ -44,7 +48,9 @@ class Level:
         for k, knob in enumerate(setting.knobs):
             neighbour = coarser_neighbour(pilot, setting, k, COARSER)
             if neighbour is None or pilot.run(neighbour) is None:
-                raise NoCoarserRun(f"{knob.name}: no coarser run has succeeded")
+                if neighbour:
+                    pilot.too_coarse[k] = max(neighbour.factors[k], pilot.too_coarse.get(k, 0.0))
+                raise NoCoarserRun(f"{knob.name}: no coarser run has succeeded", k)
             self.neighbours.append([neighbour])
         self.evaluate()
 

@@ -71,6 +71,7 @@ class Pilot:
         self.folder, self.deadline, self.destination = folder, deadline, destination
         self.values, self.costs, self.failures = {}, {}, {}  # costs: core seconds without those of the start and of outputs
         self.made = []  # (setting, core seconds) of runs made here, in the place of those that are taken from earlier studies
+        self.too_coarse = {}  # {number of a knob: largest factor, below those of runs that succeed, with which one has failed}
         self.under_way = None  # the setting of a run with outputs
         self.has_outputs = False  # has there been one?
 

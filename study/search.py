@@ -5,11 +5,13 @@ import sys
 import time
 
 from study.campaign import readable
+from study.knobs import CLOSE
 from study.level import COARSER, Level, NoCoarserRun, coarser_neighbour
 from study.pilot import Refused, Setting
 from study.tables import percent
 
-FIRST = 0.25  # factor of the first settings, of those of the scene
+FIRST, LAST_FIRST = 0.25, 4.0  # factors of the first settings, of those of the scene
+SAME = 1e-6  # relative, of factors
 AIM = 0.9  # of the error asked for: the parts are estimates
 CHEAP = 8.0  # the last run, in costs of the one that foretells its error
 LARGEST_JUMP, CAREFUL_JUMP = 8.0, 4.0  # of cost, from one setting to the next; where the error is uncertain
@@ -23,9 +25,9 @@ HOPELESS = 6.0  # refinement of all that matters, without the error falling
 MATTERS = 0.1  # of the error
 
 
-def with_room(knob):
-    """The least factor of which there are coarser ones."""
-    return min(1.0, COARSER * knob.coarsest())
+def with_room(pilot, k, knob):
+    """The least factor of a knob of which there are coarser ones that have not failed."""
+    return COARSER * max(knob.coarsest(), CLOSE * pilot.too_coarse.get(k, 0.0))
 
 
 def known_level(pilot):
@@ -39,17 +41,19 @@ def known_level(pilot):
 
 def first_level(pilot, all_knobs):
     """Of settings a quarter as fine as the scene, or as fine as needed for the run and its coarser neighbours to succeed."""
-    factor, reason = FIRST, None
-    while factor <= 2:
-        setting = Setting(all_knobs, tuple(knob.nearest(max(factor, with_room(knob))) for knob in all_knobs))
+    factors, reason = [FIRST] * len(all_knobs), None
+    while max(factors) <= LAST_FIRST:
+        setting = Setting(all_knobs, tuple(knob.nearest(max(factor, with_room(pilot, k, knob)))
+                                           for k, (knob, factor) in enumerate(zip(all_knobs, factors))))
         if pilot.run(setting) is not None:
             try:
                 return Level(pilot, setting)
             except NoCoarserRun as missing:
                 reason = str(missing)
+                factors[missing.number] *= 2
         else:
-            reason = "the scene's own settings fail: " + pilot.failures[setting]
-        factor *= 2
+            reason = f"the run with {setting.name(pilot.study)} fails: {pilot.failures[setting]}"
+            factors = [2 * factor for factor in factors]
     raise Refused(reason)
 
 
@@ -57,7 +61,8 @@ def cheapest(level, model, wanted):
     """Factors by a model of a level's error; the finest there are if none are fine enough. Steps are no longer than a run
     with outputs makes them."""
     knobs, factors = level.setting.knobs, level.setting.factors
-    low = [max(with_room(knob), knob.least_with_outputs(), factor / COARSER) for knob, factor in zip(knobs, factors)]
+    low = [max(with_room(level.pilot, k, knob), knob.least_with_outputs(), factor / COARSER)
+           for k, (knob, factor) in enumerate(zip(knobs, factors))]
     for finest in FINEST:
         choices = [knob.choices(least, max(least, factor * finest)) or [knob.nearest(least)]
                    for knob, least, factor in zip(knobs, low, factors)]
@@ -73,8 +78,8 @@ def between(level, factors, jump):
     finest = max(1.0, max(other / own for own, other in zip(level.setting.factors, factors)))
     share = min([1.0] + [math.log(most) / math.log(there) for most, there in ((jump, whole), (FAR, finest)) if there > most])
     return Setting(level.setting.knobs, tuple(
-        knob.nearest(max(own * (other / own) ** share, knob.least_with_outputs()))
-        for knob, own, other in zip(level.setting.knobs, level.setting.factors, factors)))
+        knob.nearest(max(own * (other / own) ** share, knob.least_with_outputs(), with_room(level.pilot, k, knob)))
+        for k, (knob, own, other) in enumerate(zip(level.setting.knobs, level.setting.factors, factors))))
 
 
 def settled(level):
@@ -112,6 +117,7 @@ class Search:
     def __init__(self, pilot, all_knobs, wanted):
         self.pilot, self.wanted = pilot, wanted
         self.all_knobs, self.levels = all_knobs, []
+        self.left = []  # settings whose coarser neighbours have failed
         self.setting, self.error = None, math.inf
 
     def run(self):
@@ -128,13 +134,20 @@ class Search:
             raise Refused(f"nothing can be refined further: the error is still about {percent(level.error())}")
         self.refuse_what_takes_too_long(setting)
         if self.pilot.run_with_outputs(setting) is None:
-            raise Refused(f"the run with {setting.name(self.pilot.study)} fails: {self.pilot.failures[setting]}")
+            self.turn_back(setting)
+            return
         self.setting = setting
         error = level.confirmed_error(setting) if is_foretold else None
         if error is not None and error <= self.wanted:
             self.error = error
             return
-        self.levels.append(Level(self.pilot, setting, level))
+        try:
+            self.levels.append(Level(self.pilot, setting, level))
+        except NoCoarserRun:
+            if setting in self.left:
+                raise
+            self.left.append(setting)  # the next one is finer in what fails
+            return
         self.say()
         if self.levels[-1].error() <= self.wanted and not self.levels[-1].remarks:
             self.error = self.levels[-1].error()
@@ -142,6 +155,15 @@ class Search:
         if len(self.levels) > LEVELS:
             raise Refused(f"after {LEVELS} refinements the error is still about {percent(self.levels[-1].error())}")
         self.refuse_what_does_not_converge()
+
+    def turn_back(self, setting):
+        """From one that fails to those that are nowhere coarser than the last level; Refused if it is not coarser itself."""
+        coarser = [k for k, (factor, own) in enumerate(zip(setting.factors, self.levels[-1].setting.factors))
+                   if factor < own * (1 - SAME) and factor > self.pilot.too_coarse.get(k, 0.0)]
+        if not coarser:
+            raise Refused(f"the run with {setting.name(self.pilot.study)} fails: {self.pilot.failures[setting]}")
+        for k in coarser:
+            self.pilot.too_coarse[k] = setting.factors[k]
 
     def expected_error(self):
         """Of the last setting, with parts that cancel each other; zero where nothing changes anything."""

@@ -23,9 +23,9 @@ from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
 from study.error_model import ErrorModel, Part  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of  # noqa: E402
-from study.level import SMALLEST_ORDER, UNSEEN_ORDER, Level, order_between, order_to_use  # noqa: E402
+from study.level import SMALLEST_ORDER, UNSEEN_ORDER, Level, coarser_neighbour, order_between, order_to_use  # noqa: E402
 from study.pilot import Destination, Pilot, Refused, Setting, quantity_of  # noqa: E402
-from study.search import Search, cheapest  # noqa: E402
+from study.search import Search, cheapest, with_room  # noqa: E402
 
 
 def quantity(**keys):
@@ -387,6 +387,7 @@ class FakePilot:
         self.sizes, self.orders, self.deadline, self.noise = sizes, orders, deadline, noise
         self.times_of_rows, self.values, self.costs, self.failures = numpy.linspace(0, 1, 11), {}, {}, {}
         self.study, self.quantity = study(), quantity(evaluate="over time")
+        self.too_coarse = {}
 
     def exact(self):
         return numpy.cos(self.times_of_rows)
@@ -413,6 +414,22 @@ class FakePilot:
 
     def true_error(self, setting):
         return convergence.norm(self.error(setting)) / convergence.norm(self.exact())
+
+
+class PilotOfShortSteps(FakePilot):
+    """Runs that fail with steps that are longer than the scene's, and an error of both things together."""
+
+    cross = 0.0
+
+    def run(self, setting):
+        if setting.factors[0] < 0.9:
+            self.costs[setting], self.failures[setting] = 1e-3, "the step is too long"
+            return None
+        return super().run(setting)
+
+    def error(self, setting):
+        step, cells = setting.factors
+        return super().error(setting) + self.cross * self.times_of_rows ** 3 * step ** -2.0 / cells
 
 
 class Results(unittest.TestCase):
@@ -714,6 +731,27 @@ class Accuracy(unittest.TestCase):
         for part, knob in zip(search.levels[-1].model.parts, self.knobs):
             self.assertAlmostEqual(part.growth, knob.growth, delta=0.1)
         self.assertGreater(pilot.cost_with_outputs(search.setting), pilot.costs[search.setting] + 40)
+
+    def test_where_coarser_runs_fail_finer_ones_are_used(self):
+        """Also on the way, where the last level shows smaller errors than there are, and the next setting is coarser."""
+        for cross in (0, 0.05, 0.2, -0.3):
+            for wanted in (0.2, 0.1, 0.02):
+                pilot = PilotOfShortSteps((0.04, 0.1), (2, 2))
+                pilot.cross = cross
+                found = self.search(pilot, wanted)
+                self.assertLess(pilot.true_error(found.setting), 1.3 * wanted)
+                self.assertLess(found.setting.factors[0], 6)
+
+    def test_few_cells_and_spacings_that_cannot_be_coarser_are_refined(self):
+        few = Knob("elements", {"Bodies/a/Cells": [3, 1]}, 2.0, 2.0, True)
+        spacing = Knob("spacing", {"Particles/Spacing": [0.2]}, 1.0, 3.0, False, 0.2)
+        for knob in (few, spacing):
+            pilot = FakePilot((0.1,), (knob.order,))
+            found = self.search(pilot, 0.02, (knob,))
+            self.assertLess(pilot.true_error(found.setting), 0.022)
+            self.assertGreaterEqual(min(setting.factors[0] for setting in pilot.values), 1)
+            least = Setting((knob,), (knob.nearest(with_room(pilot, 0, knob)),))
+            self.assertIsNotNone(coarser_neighbour(pilot, least, 0, 2.0))
 
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
