@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass, field
 
 from study import quantities, runs
-from study.columns import NotEvaluated, phases, read
+from study.columns import NotEvaluated, column, phases, read
 from study.description import AXES, Quantity
 
 
@@ -127,9 +127,15 @@ class Pilot:
         try:
             columns = read(os.path.join(folder, "statistics"))
             self.quantity = self.quantity or self.choose(columns)
-            self.values[setting] = quantities.evaluate(self.quantity, columns)
-        except NotEvaluated as reason:
+            for name in self.quantity.columns:
+                column(columns, name)
+        except NotEvaluated as reason:  # no setting changes that
             raise Refused(str(reason)) from reason
+        try:
+            self.values[setting] = quantities.evaluate(self.quantity, columns)
+        except NotEvaluated as reason:  # such as no whole period, of which a finer run may have one
+            self.failures[setting] = str(reason)
+            print(f"  {reason}", file=sys.stderr, flush=True)
 
     def forget(self, setting):
         """That a run has been taken which does not have the quantity."""

@@ -753,6 +753,23 @@ class Accuracy(unittest.TestCase):
             least = Setting((knob,), (knob.nearest(with_room(pilot, 0, knob)),))
             self.assertIsNotNone(coarser_neighbour(pilot, least, 0, 2.0))
 
+    def test_a_run_without_a_whole_period_has_failed_and_no_more(self):
+        times = numpy.linspace(0, 1, 101)
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(io.StringIO()):
+            pilot = Pilot("", study(), lambda _: quantity_of("a", "frequency"), folder, None)
+            for factor, frequency in ((1.0, 0.5), (2.0, 3.0)):
+                with open(os.path.join(folder, "statistics"), "w") as file:
+                    file.write("# 1: Time [s]\n# 2: a [1]\n" + "".join(
+                        f"{t:.12g} {-math.cos(2 * math.pi * frequency * t):.12g}\n" for t in times))
+                pilot.take(Setting(self.knobs, (factor, 1.0)), {"stopped": False, "failure": "", "core seconds": 1.0}, folder)
+            one, other = (Setting(self.knobs, (factor, 1.0)) for factor in (1.0, 2.0))
+            self.assertIn("whole periods", pilot.failures[one])
+            self.assertIsNone(pilot.run(one))
+            self.assertAlmostEqual(pilot.run(other).values[0, 0], 3.0, 2)
+            pilot = Pilot("", study(), lambda _: quantity_of("b", "end"), folder, None)
+            with self.assertRaisesRegex(Refused, "no column 'b'"):
+                pilot.take(one, {"stopped": False, "failure": "", "core seconds": 1.0}, folder)
+
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
             self.search(FakePilot((0, 0), (2, 2), noise=0.3), 0.01)
