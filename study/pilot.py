@@ -123,6 +123,7 @@ class Pilot:
               flush=True)
         if said:
             self.failures[setting] = said
+            self.values.pop(setting, None)
             return
         try:
             columns = read(os.path.join(folder, "statistics"))

@@ -12,6 +12,7 @@ from study.tables import percent
 
 FIRST, LAST_FIRST = 0.25, 4.0  # factors of the first settings, of those of the scene
 SAME = 1e-6  # relative, of factors
+NEAR_ENOUGH = 3.0  # an error, of what is asked for, to begin with
 AIM = 0.9  # of the error asked for: the parts are estimates
 CHEAP = 8.0  # the last run, in costs of the one that foretells its error
 LARGEST_JUMP, CAREFUL_JUMP = 8.0, 4.0  # of cost, from one setting to the next; where the error is uncertain
@@ -30,13 +31,15 @@ def with_room(pilot, k, knob):
     return COARSER * max(knob.coarsest(), CLOSE * pilot.too_coarse.get(k, 0.0))
 
 
-def known_level(pilot):
-    """Of the dearest of the runs that are there already of which all coarser neighbours are there, too; or None."""
+def known_level(pilot, wanted):
+    """Of the cheapest of the runs that are there already, of which all coarser neighbours are there, too, whose error is near
+    to what is asked for; of the one with the least error if none is; or None."""
     def is_surrounded(setting):
         return all(coarser_neighbour(pilot, setting, k, COARSER) in pilot.values for k in range(len(setting.knobs)))
 
-    surrounded = [setting for setting in pilot.values if is_surrounded(setting)]
-    return Level(pilot, max(surrounded, key=pilot.costs.get)) if surrounded else None
+    levels = [Level(pilot, setting) for setting in sorted(pilot.values, key=pilot.costs.get) if is_surrounded(setting)]
+    near = (level for level in levels if not level.remarks and level.error() <= NEAR_ENOUGH * wanted)
+    return next(near, None) or min(levels, key=Level.error, default=None)
 
 
 def first_level(pilot, all_knobs):
@@ -121,7 +124,7 @@ class Search:
         self.setting, self.error = None, math.inf
 
     def run(self):
-        self.levels.append(known_level(self.pilot) or first_level(self.pilot, self.all_knobs))
+        self.levels.append(known_level(self.pilot, self.wanted) or first_level(self.pilot, self.all_knobs))
         self.say()
         while self.error > self.wanted:
             self.refine()

@@ -25,7 +25,7 @@ from study.error_model import ErrorModel, Part  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of  # noqa: E402
 from study.level import SMALLEST_ORDER, UNSEEN_ORDER, Level, coarser_neighbour, order_between, order_to_use  # noqa: E402
 from study.pilot import Destination, Pilot, Refused, Setting, quantity_of  # noqa: E402
-from study.search import Search, cheapest, with_room  # noqa: E402
+from study.search import Search, cheapest, known_level, with_room  # noqa: E402
 
 
 def quantity(**keys):
@@ -769,6 +769,18 @@ class Accuracy(unittest.TestCase):
             pilot = Pilot("", study(), lambda _: quantity_of("b", "end"), folder, None)
             with self.assertRaisesRegex(Refused, "no column 'b'"):
                 pilot.take(one, {"stopped": False, "failure": "", "core seconds": 1.0}, folder)
+
+    def test_of_earlier_runs_those_are_used_that_are_near_to_what_is_asked_for(self):
+        pilot = FakePilot((0.02, 0.03), (2, 2))
+        for step in (0.25, 0.5, 1, 2, 4):
+            for cells in (0.25, 0.5, 1, 2, 4):
+                pilot.run(Setting(self.knobs, (step, cells)))
+        for wanted in (0.1, 0.02, 0.005):
+            known = known_level(pilot, wanted)
+            self.assertLessEqual(known.error(), 3 * wanted)
+            self.assertGreater(known.error(), 0.3 * wanted)
+        self.assertEqual(known_level(pilot, 1e-6).setting.factors, (4, 4))
+        self.assertIsNone(known_level(FakePilot((0.02, 0.03), (2, 2)), 0.1))
 
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
