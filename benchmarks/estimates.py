@@ -85,7 +85,7 @@ def search_for(program, name, wanted, folder):
 
 def row(search, truth, sure, with_best):
     pilot, setting, wanted = search.pilot, search.setting, search.wanted
-    cost, (others, count) = pilot.costs[setting], pilot.cost_of_others(setting)
+    cost, (_, (others, _), count) = pilot.costs[setting], pilot.spent(setting)
     error = relative_error(pilot.values[setting], truth)
     best = best_cost(pilot, setting, wanted, truth, sure) if with_best else float("nan")
     settings = "; ".join(f"{value}" for knob, factor in zip(setting.knobs, setting.factors)

@@ -17,6 +17,7 @@ import tempfile
 import time
 
 from study import earlier, knobs
+from study.campaign import readable
 from study.description import Study
 from study.duration import duration
 from study.pilot import Destination, Pilot, Refused, quantity_of
@@ -30,7 +31,7 @@ def report(search):
     """What the user is told at the end."""
     pilot, setting, level = search.pilot, search.setting, search.levels[-1]
     parts = list(zip(setting.knobs, setting.factors))
-    others, count = pilot.cost_of_others(setting)
+    (own, own_wall), (others, wall), count = pilot.spent(setting)
     rows = [[knob.name, "; ".join(knob.settings(factor).values()), percent(size),
              f"{part.order:.1f}" + ("" if part.seen is not None else " (assumed)")]
             for (knob, factor), size, part in zip(parts, search.parts(), level.model.parts)]
@@ -43,7 +44,8 @@ def report(search):
     lines += [f"note: {remark}" for remark in level.remarks]
     lines += [f"note: '{key}' has a single cell along an axis in all runs: what that does to the error is not known"
               for knob, factor in parts for key in knob.single_cells(factor)]
-    lines += [f"this run: {pilot.cost_with_outputs(setting):.3g} core s; {count} others before: {others:.3g} core s",
+    lines += [f"this run: {own:.3g} core s; {count} others before: {others:.3g} core s; with their starts they have taken "
+              f"{readable(own_wall)} and {readable(wall)}",
               f"half of the error would take {'about' if is_enough else 'more than'} {half:.3g} core s"]
     return "\n".join(lines)
 

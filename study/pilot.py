@@ -70,20 +70,24 @@ class Pilot:
         self.program, self.study, self.choose, self.quantity = program, study, choose, None
         self.folder, self.deadline, self.destination = folder, deadline, destination
         self.values, self.costs, self.failures = {}, {}, {}  # costs: core seconds without those of the start and of outputs
-        self.made = []  # (setting, core seconds) of runs made here, in the place of those that are taken from earlier studies
+        self.paces = {}  # (seconds of the clock for the whole run, the same for each core second) of settings
+        self.made = []  # (setting, core seconds, seconds of the clock) of runs made here, not taken from earlier studies
         self.too_coarse = {}  # {number of a knob: largest factor, below those of runs that succeed, with which one has failed}
         self.under_way = None  # the setting of a run with outputs
         self.has_outputs = False  # has there been one?
 
-    def cost_of_others(self, setting):
-        """Core seconds and number of all runs made but the last one of a setting."""
-        last = max((k for k, (each, _) in enumerate(self.made) if each == setting), default=None)
-        others = [seconds for k, (_, seconds) in enumerate(self.made) if k != last]
-        return sum(others), len(others)
+    def spent(self, setting):
+        """(Core seconds without the start, seconds of the clock) of the last run made of a setting, and of all others, and
+        their number."""
+        last = max(k for k, (each, *_) in enumerate(self.made) if each == setting)
+        others = [each for k, each in enumerate(self.made) if k != last]
+        return self.made[last][1:], (sum(core for _, core, _ in others), sum(wall for *_, wall in others)), len(others)
 
-    def cost_with_outputs(self, setting):
-        """Core seconds of the last run of a setting."""
-        return next(seconds for each, seconds in reversed(self.made) if each == setting)
+    def seconds(self, setting, growth):
+        """Of the clock, that a run will take that costs so many times as much as a setting: what its start and its outputs
+        have taken does not grow."""
+        whole, pace = self.paces[setting]
+        return whole + (growth - 1) * self.costs[setting] * pace
 
     def limit(self):
         """Seconds that a run may take; 0: as many as it likes."""
@@ -94,7 +98,7 @@ class Pilot:
         if setting not in self.costs:
             folder = os.path.join(self.folder, f"{len(self.costs)}")
             result = runs.once(self.program, self.study, setting, folder, self.limit())
-            self.made.append((setting, result["core seconds"]))
+            self.made.append((setting, result["core seconds"], result["elapsed"]))
             self.take(setting, result, os.path.join(folder, "run"))
         return self.values.get(setting)
 
@@ -109,7 +113,7 @@ class Pilot:
             result = runs.execute(words, self.limit(), printed)
         self.under_way = None
         result.update(runs.summary_of(os.path.join(folder, "summary.json")))
-        self.made.append((setting, result["core seconds"]))
+        self.made.append((setting, result["core seconds"], result["elapsed"]))
         self.take(setting, result, folder)
         return self.values.get(setting)
 
@@ -118,6 +122,8 @@ class Pilot:
         if result["stopped"]:
             raise Refused("the time allowed is over")
         self.costs[setting] = max(result["core seconds"] - seconds_of_outputs(result, folder), LEAST_COST)
+        wall = result.get("wall seconds", result["core seconds"])
+        self.paces[setting] = result.get("elapsed", wall) / result.get("repetitions", 1), wall / max(result["core seconds"], LEAST_COST)
         said = result["failure"]
         print(f"  {setting.name(self.study)}: {said or format(result['core seconds'], '.3g') + ' core s'}", file=sys.stderr,
               flush=True)

@@ -197,11 +197,11 @@ class Search:
         if not self.pilot.deadline:
             return
         left, level = self.pilot.deadline - time.monotonic(), self.levels[-1]
-        next_cost = self.pilot.costs[level.setting] * float(level.model.cost(setting.factors))
-        whole, _ = self.cost_of(AIM * self.wanted)
+        following, last = (self.pilot.seconds(level.setting, float(level.model.cost(factors))) for factors in (
+            setting.factors, cheapest(level, level.model, AIM * self.wanted)))
         is_sure = level.orders_are_seen() and not level.remarks
-        if next_cost > left or (is_sure and whole > left):
-            raise Refused(f"it would take about {readable(max(whole, next_cost))}, but {readable(max(left, 0))} of the time "
+        if following > left or (is_sure and last > left):
+            raise Refused(f"it would take about {readable(max(following, last))}, but {readable(max(left, 0))} of the time "
                           f"allowed are left; so far the error is about {percent(level.error())}")
 
     def refuse_what_does_not_converge(self):

@@ -9,6 +9,7 @@ import math
 import os
 import sys
 import tempfile
+import time
 import unittest
 import unittest.mock
 
@@ -18,6 +19,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspa
 from study import analysis, columns, convergence, description, page, predictions, quantities, references, report, runs  # noqa: E402
 from study import scene_files, stability, tables  # noqa: E402
 from study.accuracy import default_column  # noqa: E402
+from study.campaign import readable  # noqa: E402
 from study.cases import Case, make_cases, of_scene, ranks  # noqa: E402
 from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
@@ -387,7 +389,7 @@ class FakePilot:
         self.sizes, self.orders, self.deadline, self.noise = sizes, orders, deadline, noise
         self.times_of_rows, self.values, self.costs, self.failures = numpy.linspace(0, 1, 11), {}, {}, {}
         self.study, self.quantity = study(), quantity(evaluate="over time")
-        self.too_coarse = {}
+        self.too_coarse, self.start = {}, 0.0
 
     def exact(self):
         return numpy.cos(self.times_of_rows)
@@ -411,6 +413,9 @@ class FakePilot:
 
     def compare(self, settings, _):
         return [self.values[setting].values for setting in settings]
+
+    def seconds(self, setting, growth):
+        return self.start + growth * self.costs[setting]
 
     def true_error(self, setting):
         return convergence.norm(self.error(setting)) / convergence.norm(self.exact())
@@ -713,7 +718,7 @@ class Accuracy(unittest.TestCase):
             with open(os.path.join(folder, "timing"), "w") as file:
                 file.write(f"fluid   1   {seconds:.4f}   50.0\noutput   1   {outputs:.4f}   50.0\n  vtu   1   {outputs:.4f}   50.0\n")
             cost = seconds + outputs
-            return {"failure": "", "stopped": False, "exit code": 0, "core seconds": cost, "wall seconds": cost}
+            return {"failure": "", "stopped": False, "exit code": 0, "core seconds": cost, "wall seconds": cost, "elapsed": cost}
 
         def once(_program, of_study, setting, folder, _limit):
             return leave(os.path.join(folder, "run"), [f"{key}={value}" for key, value in setting.settings(of_study).items()], 0.0)
@@ -730,7 +735,7 @@ class Accuracy(unittest.TestCase):
         self.assertGreater(len(search.levels), 1)
         for part, knob in zip(search.levels[-1].model.parts, self.knobs):
             self.assertAlmostEqual(part.growth, knob.growth, delta=0.1)
-        self.assertGreater(pilot.cost_with_outputs(search.setting), pilot.costs[search.setting] + 40)
+        self.assertGreater(pilot.spent(search.setting)[0][0], pilot.costs[search.setting] + 40)
 
     def test_where_coarser_runs_fail_finer_ones_are_used(self):
         """Also on the way, where the last level shows smaller errors than there are, and the next setting is coarser."""
@@ -781,6 +786,23 @@ class Accuracy(unittest.TestCase):
             self.assertGreater(known.error(), 0.3 * wanted)
         self.assertEqual(known_level(pilot, 1e-6).setting.factors, (4, 4))
         self.assertIsNone(known_level(FakePilot((0.02, 0.03), (2, 2)), 0.1))
+
+    def test_starts_count_for_the_time_allowed(self):
+        pilot = Pilot("", study(), lambda _: quantity_of("a", "end"), "", None)
+        one = Setting(self.knobs, (1.0, 1.0))
+        with contextlib.redirect_stderr(io.StringIO()):
+            pilot.take(one, {"stopped": False, "failure": "fails", "core seconds": 1.0, "wall seconds": 2.0, "elapsed": 2.5}, "")
+        self.assertAlmostEqual(pilot.seconds(one, 1), 2.5)
+        self.assertAlmostEqual(pilot.seconds(one, 10), 20.5)
+        self.assertEqual([readable(seconds) for seconds in (0.04, 2.26, 9.96, 30, 600)], ["0.0 s", "2.3 s", "10 s", "30 s", "10 min"])
+        for start, is_refused in ((0.0, False), (2000.0, True)):
+            fake = FakePilot((0.02, 0.03), (2, 2), deadline=time.monotonic() + 1000)
+            fake.start = start
+            if is_refused:
+                with self.assertRaisesRegex(Refused, "it would take about 33 min"):
+                    self.search(fake, 0.01)
+            else:
+                self.search(fake, 0.01)
 
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
