@@ -2,7 +2,7 @@
 """An error as a sum of parts, one for each thing that can be refined, which fall with powers of its refinement; and the
 cheapest factors for an error that is asked for."""
 import itertools
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy
 
@@ -20,6 +20,7 @@ class Part:
     seen: float = None  # the order that values show; nan: they do not come closer
     falls: bool = True  # do values come closer?
     is_sure: bool = False  # has the order been seen at several factors, alike?
+    differences: list = field(default_factory=list)  # of all levels that tell the order, the last one first
 
     def error(self):
         """What is missing from the limit."""

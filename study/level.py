@@ -1,21 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What part of the error of a setting comes from what, by runs that are coarser in one thing."""
 import math
-from dataclasses import replace
 
-from study import convergence
+from study import convergence, orders
 from study.error_model import ErrorModel, Part
 from study.pilot import Refused
 
 COARSER, NEAR = 2.0, 1.4  # neighbours, in one thing; factor by which a run that is there already may be beside that
-SMALLEST_ORDER = 0.7
-UNSEEN_ORDER = 1.5  # a prudent one, where none has been seen
-APART = 1.4  # factor between two settings that can tell an order
 LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of smaller ones
 SLOWEST_GROWTH, STEEPEST_GROWTH = 0.5, 1.5  # of cost, in growths expected; others are noise
 MOST_OVERHEAD = 0.9  # of the cheapest run
-ALIKE_ORDERS = 0.3  # largest difference
-GROWN = 1.5  # a difference, of that foretold, which is no longer that of the order
 ALIKE = 0.6  # of a change, what may not have been foretold
 
 
@@ -81,24 +75,29 @@ class Level:
     def part(self, k, chain, values):
         """That of one knob, by values of settings that are coarser and coarser in it, in sizes of the quantity."""
         knob, factors = self.setting.knobs[k], [each.factors[k] for each in chain]
-        ratio, difference = factors[0] / factors[1], convergence.norm(values[1] - values[0])
-        before = self.part_before(k)
-        seen = order_between(before, difference, ratio, factors[0]) if before else None
-        is_new = seen is not None and can_tell_order(before, difference, factors[0])
-        if seen is None and len(chain) > 2 and difference > 0:
+        own = orders.of_chain(factors, values, self.scale)
+        before = self.before.model.parts[k] if self.before else None
+        differences = orders.joined(own, before.differences if before else [])
+        seen, is_sure = self.order_seen(own[0], before)
+        if seen is None and len(chain) > 2 and own[0].size > 0:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
-        is_sure = bool(before and before.is_sure) if not is_new else is_alike(seen, before.seen)
-        order = order_to_use(seen, before if is_new and is_sure else None, knob)
-        falls = difference < LARGE and not (seen is not None and math.isnan(seen))
-        return Part(values[1] - values[0], ratio, factors[0], order, knob.order,
-                    self.growth(chain, ratio, knob), knob.growth, seen, falls, is_sure)
+        order = orders.order_to_use(seen, is_sure, differences, knob.order)
+        falls = own[0].size < LARGE * self.scale and not (seen is not None and math.isnan(seen))
+        return Part(values[1] - values[0], own[0].ratio, factors[0], order, knob.order, self.growth(chain, own[0].ratio, knob),
+                    knob.growth, seen, falls, is_sure, differences)
 
-    def part_before(self, k):
-        """That of an earlier level, in sizes that the quantity has with the setting of this one; None without any."""
-        if not self.before:
-            return None
-        part = self.before.model.parts[k]
-        return replace(part, difference=part.difference * (self.before.scale / self.scale))
+    @staticmethod
+    def order_seen(own, before):
+        """The order between a difference of this level and the next one of an earlier level, and whether that has seen it, too;
+        as the earlier level has seen it, if factors are too close to tell one; None if none was seen or differences have grown."""
+        if not before:
+            return None, False
+        if before.differences and own.is_apart(before.differences[0]):
+            seen = orders.order_between(own, before.differences[0])
+            return seen, orders.is_alike(seen, before.seen)
+        if not before.falls or (before.differences and orders.has_grown(own, before.differences[0], before.order)):
+            return None, False
+        return before.seen, before.is_sure
 
     def growth(self, chain, ratio, knob):
         """Of the cost without outputs and what does not grow."""
@@ -128,7 +127,7 @@ class Level:
 
     def hopeful(self):
         """The model with the orders that theory promises."""
-        return ErrorModel([part.hopeful() for part in self.model.parts])
+        return ErrorModel([part.hopeful() for part in self.model.parts], self.model.overhead)
 
     def confirmed_error(self, setting):
         """That of another setting, whose run tells whether the parts are what they seem: larger by as much as the quantity
@@ -141,35 +140,3 @@ class Level:
         more = size / convergence.norm(foretold) if size > error / 2 else 1.0
         return error * max(1.0, more) * self.scale / convergence.norm(other)
 
-
-def can_tell_order(before, difference, factor):
-    """Can a difference at a factor and that of an earlier part tell an order?"""
-    return not 1 / APART < factor / before.factor < APART and difference > 0 and convergence.norm(before.difference) > 0
-
-
-def is_alike(one, other):
-    """Do two orders, None if not seen, confirm each other?"""
-    return one is not None and other is not None and abs(one - other) < ALIKE_ORDERS
-
-
-def order_to_use(seen, confirmed_by, knob):
-    """The one seen, in the middle with that of an earlier level that shows the same; one greater than expected is chance.
-    A prudent one if none has been seen."""
-    if seen is None:
-        return min(knob.order, UNSEEN_ORDER)
-    if math.isnan(seen):
-        return SMALLEST_ORDER
-    order = (seen + confirmed_by.seen) / 2 if confirmed_by else seen
-    return min(max(order, SMALLEST_ORDER), knob.order)
-
-
-def order_between(before, difference, ratio, factor):
-    """p of differences C s^-p (r^p - 1) at two factors, nan if they do not fall. If these are too close to tell one, that of
-    before, as long as the difference is what it foretells; None if none was seen."""
-    earlier = convergence.norm(before.difference)
-    if not can_tell_order(before, difference, factor):
-        foretold = earlier * (factor / before.factor) ** -before.order * (ratio ** before.order - 1) / (before.ratio ** before.order - 1)
-        return before.seen if before.falls and difference <= GROWN * foretold else None
-    coarse, fine = sorted(((before.factor, before.ratio, earlier), (factor, ratio, difference)))
-    pairs = [(ratio / factor, 1 / factor) for factor, ratio, _ in (coarse, fine)]
-    return convergence.order_of_pairs(*pairs, coarse[2], fine[2])

@@ -17,7 +17,7 @@ import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 from study import analysis, columns, convergence, description, page, predictions, quantities, references, report, runs  # noqa: E402
-from study import scene_files, stability, tables  # noqa: E402
+from study import orders, scene_files, stability, tables  # noqa: E402
 from study.accuracy import default_column  # noqa: E402
 from study.campaign import readable  # noqa: E402
 from study.cases import Case, make_cases, of_scene, ranks  # noqa: E402
@@ -25,7 +25,7 @@ from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
 from study.error_model import ErrorModel, Part  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of  # noqa: E402
-from study.level import SMALLEST_ORDER, UNSEEN_ORDER, Level, coarser_neighbour, order_between, order_to_use  # noqa: E402
+from study.level import Level, coarser_neighbour  # noqa: E402
 from study.pilot import Destination, Pilot, Refused, Setting, quantity_of  # noqa: E402
 from study.search import Search, cheapest, known_level, with_room  # noqa: E402
 
@@ -835,15 +835,28 @@ class Accuracy(unittest.TestCase):
             self.assertEqual(knobs_of(found)[0].order, order, changed)
 
     def test_no_order_is_used_above_the_one_seen_unless_it_is_seen_again(self):
-        knob = self.knobs[0]
-        for seen, used in ((1.0, 1.0), (1.6, 1.6), (3.0, 2.0), (0.2, SMALLEST_ORDER), (None, UNSEEN_ORDER), (math.nan, SMALLEST_ORDER)):
-            self.assertEqual(order_to_use(seen, None, knob), used)
+        for seen, used in ((1.0, 1.0), (1.6, 1.6), (3.0, 2.0), (0.2, orders.SMALLEST_ORDER), (None, orders.UNSEEN_ORDER),
+                           (math.nan, orders.SMALLEST_ORDER)):
+            self.assertEqual(orders.order_to_use(seen, False, [], 2.0), used)
+
+    def test_orders_are_those_of_all_differences_and_not_far_from_theory(self):
+        def seen(*noises, order=1.5):
+            differences = [orders.Difference(2.0 ** k, 2.0, math.exp(noise) * 2.0 ** (-order * k)) for k, noise in enumerate(noises)]
+            return orders.likely(differences, 2.0)
+
+        self.assertLess(abs(seen(0, 0, 0, 0) - 1.5), 0.1)
+        self.assertLess(abs(seen(0, 0, 0, 0, 0, 0, 0) - 1.5), 0.02)
+        self.assertLess(abs(seen(0, 0.3, -0.3, 0, order=2.0) - 2.0), 0.25)  # where the last two alone show 1.6, those before 2.9
+        self.assertGreater(seen(0, 0.2), 1.3)  # by these two alone, 1.2
+        self.assertEqual(orders.order_to_use(1.2, False, [orders.Difference(2.0 ** k, 2.0, 2.0 ** (-1.2 * k)) for k in range(3)], 2.0), 1.2)
 
     def test_an_order_is_confirmed_by_differences_at_other_factors_only(self):
-        before = Part(numpy.array([1e-2]), 2, 1.0, 1.0, 2.0, 1, 1, seen=1.0)
-        self.assertEqual(order_between(before, 0.9e-2, 2, 1.1), 1.0)
-        self.assertIsNone(order_between(before, 1e-1, 2, 1.1))  # differences have grown at the same factor
-        self.assertAlmostEqual(order_between(before, 0.5e-2, 2, 2.0), 1.0)
+        before = Part(numpy.array([1e-2]), 2, 1.0, 1.0, 2.0, 1, 1, seen=1.0, differences=[orders.Difference(1.0, 2, 1e-2)])
+        self.assertEqual(Level.order_seen(orders.Difference(1.1, 2, 0.9e-2), before), (1.0, False))
+        self.assertEqual(Level.order_seen(orders.Difference(1.1, 2, 1e-1), before), (None, False))  # has grown
+        seen, is_sure = Level.order_seen(orders.Difference(2.0, 2, 0.5e-2), before)
+        self.assertAlmostEqual(seen, 1.0)
+        self.assertTrue(is_sure)
         pilot = FakePilot((0.2, 0.3), (1.3, 1.3))
         levels = []
         for factors in ((0.25, 0.25), (0.27, 0.25), (0.6, 0.25)):
