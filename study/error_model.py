@@ -36,11 +36,11 @@ class Part:
 
 
 class ErrorModel:
-    """(Q3), (Q4): errors and costs of factors that are near those of the parts. `overhead`: of the cost of their setting,
-    what does not grow."""
+    """(Q3), (Q4): errors and costs of factors that are near those of a setting, which are its own ones. `overhead`: of the cost
+    of that setting, what does not grow."""
 
-    def __init__(self, parts, overhead=0.0):
-        self.parts, self.overhead = parts, overhead
+    def __init__(self, parts, own, overhead=0.0):
+        self.parts, self.own, self.overhead = parts, numpy.array(own), overhead
         self.factors = numpy.array([part.factor for part in parts])
         self.orders = numpy.array([part.order for part in parts])
         errors = [part.error() for part in parts]
@@ -65,18 +65,18 @@ class ErrorModel:
         return float(numpy.sqrt(max(0.0, weights @ self.products @ weights)))
 
     def change(self, factors):
-        """What the quantity changes by from the setting of the parts to another one, in sizes of the quantity."""
-        weights = (numpy.array(factors) / self.factors) ** -self.orders
-        return sum(part.error() * (weight - 1) for part, weight in zip(self.parts, weights))
+        """What the quantity changes by from the setting to another one, in sizes of the quantity."""
+        weights = (numpy.array(factors) / self.factors) ** -self.orders - (self.own / self.factors) ** -self.orders
+        return sum(part.error() * weight for part, weight in zip(self.parts, weights))
 
     def cost(self, factors):
-        """In costs of the setting of the parts, as they have been seen to grow."""
-        growing = numpy.prod((factors / self.factors) ** [part.growth for part in self.parts], axis=-1)
+        """In costs of the setting, as they have been seen to grow."""
+        growing = numpy.prod((factors / self.own) ** [part.growth for part in self.parts], axis=-1)
         return self.overhead + (1 - self.overhead) * growing
 
     def expected_cost(self, factors):
         """The same as they should grow, were runs long."""
-        return numpy.prod((factors / self.factors) ** [part.expected_growth for part in self.parts], axis=-1)
+        return numpy.prod((factors / self.own) ** [part.expected_growth for part in self.parts], axis=-1)
 
     def cheapest(self, wanted, choices):
         """Of the factors to choose from for each thing those with the least cost for an error; None if none are fine enough."""

@@ -7,6 +7,8 @@ from study.error_model import ErrorModel, Part
 from study.pilot import Refused
 
 COARSER, NEAR = 2.0, 1.4  # neighbours, in one thing; factor by which a run that is there already may be beside that
+NEARLY = 1.1  # factor between settings that are nearly the same
+CORRECTIONS = 2  # times that parts and what they foretell of each other are found
 LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of smaller ones
 SLOWEST_GROWTH, STEEPEST_GROWTH = 0.5, 1.5  # of cost, in growths expected; others are noise
 MOST_OVERHEAD = 0.9  # of the cheapest run
@@ -32,6 +34,18 @@ def coarser_neighbour(pilot, setting, k, ratio):
     return setting.with_factor(k, factor) if factor < 0.8 * own else None
 
 
+def nearly_neighbour(pilot, setting, k):
+    """A run that is there already, coarser in one thing and nearly the same in all others; None without any."""
+    def ratio(other):
+        return setting.factors[k] / other.factors[k]
+
+    def is_near(other):
+        others = [own / its for number, (own, its) in enumerate(zip(setting.factors, other.factors)) if number != k]
+        return COARSER / NEAR < ratio(other) < COARSER * NEARLY and all(1 / NEARLY < each < NEARLY for each in others)
+
+    return min(filter(is_near, pilot.values), key=lambda other: abs(math.log(ratio(other) / COARSER)), default=None)
+
+
 class Level:
     """A setting, of whose error each part is known by a run that is coarser in one thing, or two. `before`: an earlier level
     to tell orders. Raises NoCoarserRun."""
@@ -40,7 +54,7 @@ class Level:
         self.pilot, self.setting, self.before = pilot, setting, before
         self.neighbours, self.remarks = [], []
         for k, knob in enumerate(setting.knobs):
-            neighbour = coarser_neighbour(pilot, setting, k, COARSER)
+            neighbour = nearly_neighbour(pilot, setting, k) or coarser_neighbour(pilot, setting, k, COARSER)
             if neighbour is None or pilot.run(neighbour) is None:
                 if neighbour:
                     pilot.too_coarse[k] = max(neighbour.factors[k], pilot.too_coarse.get(k, 0.0))
@@ -66,11 +80,23 @@ class Level:
         if self.scale == 0:
             raise Refused("the quantity is zero all the time: choose another one with --of")
         self.overhead = self.find_overhead(chains)
-        parts = [self.part(k, chain, [each / self.scale for each in self.pilot.compare(chain, self.times)])
-                 for k, chain in enumerate(chains)]
-        self.model = ErrorModel(parts, self.overhead / self.pilot.costs[self.setting])
+        values = [[each / self.scale for each in self.pilot.compare(chain, self.times)] for chain in chains]
+        self.model = self.model_of(chains, values)
+        if any(neighbour != self.setting.with_factor(k, neighbour.factors[k]) for k, (_, neighbour, *_) in enumerate(chains)):
+            for _ in range(CORRECTIONS):
+                self.model = self.model_of(chains, [self.alone(k, *pair) for k, pair in enumerate(zip(chains, values))])
         self.remarks = [f"{knob.name}: values do not come closer yet"
                         for knob, part in zip(self.setting.knobs, self.model.parts) if not part.falls]
+
+    def model_of(self, chains, values):
+        parts = [self.part(k, *pair) for k, pair in enumerate(zip(chains, values))]
+        return ErrorModel(parts, self.setting.factors, self.overhead / self.pilot.costs[self.setting])
+
+    def alone(self, k, chain, values):
+        """Values of settings as they would be if these were coarser in one thing only, by the parts of the others."""
+        own = self.setting.factors
+        others = [each.factors[:k] + own[k:k + 1] + each.factors[k + 1:] for each in chain]
+        return [value - self.model.change(factors) for value, factors in zip(values, others)]
 
     def part(self, k, chain, values):
         """That of one knob, by values of settings that are coarser and coarser in it, in sizes of the quantity."""
@@ -83,7 +109,7 @@ class Level:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
         order = orders.order_to_use(seen, is_sure, differences, knob.order)
         falls = own[0].size < LARGE * self.scale and not (seen is not None and math.isnan(seen))
-        return Part(values[1] - values[0], own[0].ratio, factors[0], order, knob.order, self.growth(chain, own[0].ratio, knob),
+        return Part(values[1] - values[0], own[0].ratio, factors[0], order, knob.order, self.growth(k, chain, own[0].ratio),
                     knob.growth, seen, falls, is_sure, differences)
 
     @staticmethod
@@ -99,19 +125,26 @@ class Level:
             return None, False
         return before.seen, before.is_sure
 
-    def growth(self, chain, ratio, knob):
+    def growth(self, k, chain, ratio):
         """Of the cost without outputs and what does not grow."""
-        fine, coarse = (self.pilot.costs[each] - self.overhead for each in chain[:2])
+        knob = self.setting.knobs[k]
+        fine, coarse = (self.cost_alone(k, each) - self.overhead for each in chain[:2])
         seen = math.log(fine / coarse) / math.log(ratio)
         return min(max(seen, SLOWEST_GROWTH * knob.growth), STEEPEST_GROWTH * knob.growth)
+
+    def cost_alone(self, k, other):
+        """Of a setting, as it would be if it were coarser in one thing only, by growths expected of the others."""
+        return self.pilot.costs[other] * math.prod((own / its) ** knob.growth for number, (knob, own, its) in enumerate(zip(
+            self.setting.knobs, self.setting.factors, other.factors)) if number != k)
 
     def find_overhead(self, chains):
         """What all runs cost alike: what is left of coarser ones by the growths expected, the least of them all, and a little
         less than the cheapest run."""
-        found = [MOST_OVERHEAD * min(self.pilot.costs[each] for each in self.pilot.values)]
+        found = [MOST_OVERHEAD * min(min(self.pilot.costs[each] for each in self.pilot.values),
+                                     min(self.cost_alone(k, chain[1]) for k, chain in enumerate(chains)))]
         for k, (own, neighbour, *_) in enumerate(chains):
             share = (neighbour.factors[k] / own.factors[k]) ** own.knobs[k].growth
-            found.append((self.pilot.costs[neighbour] - share * self.pilot.costs[own]) / (1 - share))
+            found.append((self.cost_alone(k, neighbour) - share * self.pilot.costs[own]) / (1 - share))
         return max(0.0, min(found))
 
     def error(self):
@@ -127,7 +160,7 @@ class Level:
 
     def hopeful(self):
         """The model with the orders that theory promises."""
-        return ErrorModel([part.hopeful() for part in self.model.parts], self.model.overhead)
+        return ErrorModel([part.hopeful() for part in self.model.parts], self.setting.factors, self.model.overhead)
 
     def confirmed_error(self, setting):
         """That of another setting, whose run tells whether the parts are what they seem: larger by as much as the quantity
