@@ -9,6 +9,7 @@ from study.pilot import Refused
 COARSER, NEAR = 2.0, 1.4  # neighbours, in one thing; factor by which a run that is there already may be beside that
 NEARLY = 1.1  # factor between settings that are nearly the same
 CORRECTIONS = 2  # times that parts and what they foretell of each other are found
+LITTLE = 0.1  # a part of the error that does not matter
 LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of smaller ones
 SLOWEST_GROWTH, STEEPEST_GROWTH = 0.5, 1.5  # of cost, in growths expected; others are noise
 MOST_OVERHEAD = 0.9  # of the cheapest run
@@ -51,56 +52,76 @@ class Level:
     to tell orders. Raises NoCoarserRun."""
 
     def __init__(self, pilot, setting, before=None):
-        self.pilot, self.setting, self.before = pilot, setting, before
-        self.neighbours, self.remarks = [], []
-        for k, knob in enumerate(setting.knobs):
-            neighbour = nearly_neighbour(pilot, setting, k) or coarser_neighbour(pilot, setting, k, COARSER)
-            if neighbour is None or pilot.run(neighbour) is None:
-                if neighbour:
-                    pilot.too_coarse[k] = max(neighbour.factors[k], pilot.too_coarse.get(k, 0.0))
-                raise NoCoarserRun(f"{knob.name}: no coarser run has succeeded", k)
-            self.neighbours.append([neighbour])
+        self.pilot, self.setting, self.before, self.remarks = pilot, setting, before, []
+        numbers = range(len(setting.knobs))
+        self.chains = [before.chains[k] if before and before.foretells_little_of(k, setting) else self.chain(k) for k in numbers]
+        self.evaluate()
+
+    def chain(self, k):
+        """The setting and a neighbour that is coarser in one thing."""
+        knob = self.setting.knobs[k]
+        neighbour = nearly_neighbour(self.pilot, self.setting, k) or coarser_neighbour(self.pilot, self.setting, k, COARSER)
+        if neighbour is None or self.pilot.run(neighbour) is None:
+            if neighbour:
+                self.pilot.too_coarse[k] = max(neighbour.factors[k], self.pilot.too_coarse.get(k, 0.0))
+            raise NoCoarserRun(f"{knob.name}: no coarser run has succeeded", k)
+        return [self.setting, neighbour]
+
+    def foretells_little_of(self, k, setting):
+        """Does one thing matter so little to the error of a finer setting that its part need not be measured there?"""
+        part = self.model.parts[k]
+        size = part.size * (setting.factors[k] / part.factor) ** -part.order
+        return part.falls and part.seen is not None and size < LITTLE * self.model.error(setting.factors)
+
+    def is_complete(self):
+        """Are all parts measured with this setting?"""
+        return all(chain[0] == self.setting for chain in self.chains)
+
+    def complete(self):
+        """Measure all parts with this setting."""
+        self.chains = [chain if chain[0] == self.setting else self.chain(k) for k, chain in enumerate(self.chains)]
         self.evaluate()
 
     def see_orders(self):
         """By a second neighbour of each knob of which no order has been seen."""
         for k, part in enumerate(self.model.parts):
             neighbour = coarser_neighbour(self.pilot, self.setting, k, COARSER ** 2) if part.seen is None else None
-            is_apart = neighbour and neighbour.factors[k] < 0.8 * self.neighbours[k][-1].factors[k]
+            is_apart = neighbour and neighbour.factors[k] < 0.8 * self.chains[k][-1].factors[k]
             if is_apart and self.pilot.run(neighbour) is not None:
-                self.neighbours[k].append(neighbour)
+                self.chains[k] = self.chains[k] + [neighbour]
         self.evaluate()
 
     def evaluate(self):
         """The parts of the error, by all runs that there are."""
-        chains = [[self.setting] + each for each in self.neighbours]
-        self.times = self.pilot.times(sum(chains, []))
+        self.times = self.pilot.times(sum(self.chains, [self.setting]))
         (own,) = self.pilot.compare([self.setting], self.times)
         self.scale = convergence.norm(own)
         if self.scale == 0:
             raise Refused("the quantity is zero all the time: choose another one with --of")
-        self.overhead = self.find_overhead(chains)
-        values = [[each / self.scale for each in self.pilot.compare(chain, self.times)] for chain in chains]
-        self.model = self.model_of(chains, values)
-        if any(neighbour != self.setting.with_factor(k, neighbour.factors[k]) for k, (_, neighbour, *_) in enumerate(chains)):
+        self.overhead = self.find_overhead()
+        values = [[each / self.scale for each in self.pilot.compare(chain, self.times)] for chain in self.chains]
+        self.model = self.model_of(values)
+        if any(chain[1] != chain[0].with_factor(k, chain[1].factors[k]) for k, chain in enumerate(self.chains)):
             for _ in range(CORRECTIONS):
-                self.model = self.model_of(chains, [self.alone(k, *pair) for k, pair in enumerate(zip(chains, values))])
+                self.model = self.model_of([self.alone(k, each) for k, each in enumerate(values)])
         self.remarks = [f"{knob.name}: values do not come closer yet"
                         for knob, part in zip(self.setting.knobs, self.model.parts) if not part.falls]
 
-    def model_of(self, chains, values):
-        parts = [self.part(k, *pair) for k, pair in enumerate(zip(chains, values))]
+    def model_of(self, values):
+        parts = [self.part(k, each) for k, each in enumerate(values)]
         return ErrorModel(parts, self.setting.factors, self.overhead / self.pilot.costs[self.setting])
 
-    def alone(self, k, chain, values):
-        """Values of settings as they would be if these were coarser in one thing only, by the parts of the others."""
-        own = self.setting.factors
-        others = [each.factors[:k] + own[k:k + 1] + each.factors[k + 1:] for each in chain]
-        return [value - self.model.change(factors) for value, factors in zip(values, others)]
+    def alone(self, k, values):
+        """Values of the settings of a chain as they would be if these were coarser in one thing only, by the parts of the
+        others."""
+        first = self.chains[k][0].factors
+        others = [each.factors[:k] + first[k:k + 1] + each.factors[k + 1:] for each in self.chains[k]]
+        return [value + self.model.change(first) - self.model.change(factors) for value, factors in zip(values, others)]
 
-    def part(self, k, chain, values):
+    def part(self, k, values):
         """That of one knob, by values of settings that are coarser and coarser in it, in sizes of the quantity."""
-        knob, factors = self.setting.knobs[k], [each.factors[k] for each in chain]
+        knob, chain = self.setting.knobs[k], self.chains[k]
+        factors = [each.factors[k] for each in chain]
         own = orders.of_chain(factors, values, self.scale)
         before = self.before.model.parts[k] if self.before else None
         differences = orders.joined(own, before.differences if before else [])
@@ -109,7 +130,7 @@ class Level:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
         order = orders.order_to_use(seen, is_sure, differences, knob.order)
         falls = own[0].size < LARGE * self.scale and not (seen is not None and math.isnan(seen))
-        return Part(values[1] - values[0], own[0].ratio, factors[0], order, knob.order, self.growth(k, chain, own[0].ratio),
+        return Part(values[1] - values[0], own[0].ratio, factors[0], order, knob.order, self.growth(k, own[0].ratio),
                     knob.growth, seen, falls, is_sure, differences)
 
     @staticmethod
@@ -125,9 +146,11 @@ class Level:
             return None, False
         return before.seen, before.is_sure
 
-    def growth(self, k, chain, ratio):
+    def growth(self, k, ratio):
         """Of the cost without outputs and what does not grow."""
-        knob = self.setting.knobs[k]
+        knob, chain = self.setting.knobs[k], self.chains[k]
+        if chain[0] != self.setting:
+            return self.before.model.parts[k].growth
         fine, coarse = (self.cost_alone(k, each) - self.overhead for each in chain[:2])
         seen = math.log(fine / coarse) / math.log(ratio)
         return min(max(seen, SLOWEST_GROWTH * knob.growth), STEEPEST_GROWTH * knob.growth)
@@ -137,14 +160,14 @@ class Level:
         return self.pilot.costs[other] * math.prod((own / its) ** knob.growth for number, (knob, own, its) in enumerate(zip(
             self.setting.knobs, self.setting.factors, other.factors)) if number != k)
 
-    def find_overhead(self, chains):
+    def find_overhead(self):
         """What all runs cost alike: what is left of coarser ones by the growths expected, the least of them all, and a little
         less than the cheapest run."""
-        found = [MOST_OVERHEAD * min(min(self.pilot.costs[each] for each in self.pilot.values),
-                                     min(self.cost_alone(k, chain[1]) for k, chain in enumerate(chains)))]
-        for k, (own, neighbour, *_) in enumerate(chains):
-            share = (neighbour.factors[k] / own.factors[k]) ** own.knobs[k].growth
-            found.append((self.cost_alone(k, neighbour) - share * self.pilot.costs[own]) / (1 - share))
+        found = [MOST_OVERHEAD * min(self.pilot.costs[each] for each in self.pilot.values)]
+        for k, (own, neighbour, *_) in enumerate(self.chains):
+            if own == self.setting:
+                share, cost = (neighbour.factors[k] / own.factors[k]) ** own.knobs[k].growth, self.cost_alone(k, neighbour)
+                found += [MOST_OVERHEAD * cost, (cost - share * self.pilot.costs[own]) / (1 - share)]
         return max(0.0, min(found))
 
     def error(self):

@@ -140,9 +140,7 @@ class Search:
             self.turn_back(setting)
             return
         self.setting = setting
-        error = level.confirmed_error(setting) if is_foretold else None
-        if error is not None and error <= self.wanted:
-            self.error = error
+        if is_foretold and self.is_accurate(level, lambda: level.confirmed_error(setting)):
             return
         try:
             self.levels.append(Level(self.pilot, setting, level))
@@ -152,12 +150,27 @@ class Search:
             self.left.append(setting)  # the next one is finer in what fails
             return
         self.say()
-        if self.levels[-1].error() <= self.wanted and not self.levels[-1].remarks:
-            self.error = self.levels[-1].error()
+        late = self.levels[-1]
+        if self.is_accurate(late, lambda: math.inf if late.remarks else late.error()):
             return
         if len(self.levels) > LEVELS:
             raise Refused(f"after {LEVELS} refinements the error is still about {percent(self.levels[-1].error())}")
         self.refuse_what_does_not_converge()
+
+    def is_accurate(self, level, error_by):
+        """Is an error by a level, which may be None if it is not known, as small as wanted, also once all of the level's parts
+        are measured? Then it is that of the search."""
+        error = error_by()
+        if error is not None and error <= self.wanted and not level.is_complete():
+            try:
+                level.complete()
+            except NoCoarserRun:
+                return False
+            error = error_by()
+        if error is None or error > self.wanted:
+            return False
+        self.error = error
+        return True
 
     def turn_back(self, setting):
         """From one that fails to those that are nowhere coarser than the last level; Refused if it is not coarser itself."""

@@ -817,6 +817,19 @@ class Accuracy(unittest.TestCase):
             self.assertLess(convergence.norm(part.error() - other.error()), 0.12 * convergence.norm(part.error()))
         self.assertLess(abs(levels[0].error() - levels[1].error()), 0.1 * levels[0].error())
 
+    def test_what_matters_little_is_measured_again_before_a_setting_is_accepted_only(self):
+        for late in (0.0, 0.002):  # an error that only fine cells show
+            class Late(FakePilot):
+                def error(self, setting):
+                    step, cells = setting.factors
+                    return FakePilot.error(self, setting) + late * self.times_of_rows ** 2 * (cells > 1) * step ** -2.0
+
+            pilot = Late((0.0005, 0.5), (2, 2))
+            found = self.search(pilot, 0.005)
+            self.assertLess(pilot.true_error(found.setting), 1.5 * 0.005)
+            self.assertTrue(found.levels[-1].is_complete())
+            self.assertTrue(late or not all(level.is_complete() for level in found.levels))
+
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
             self.search(FakePilot((0, 0), (2, 2), noise=0.3), 0.01)
