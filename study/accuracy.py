@@ -41,7 +41,7 @@ def report(search):
     lines = ["", f"error of '{pilot.quantity.name}' ({pilot.quantity.evaluate}): about {percent(search.error)}{cancels}, "
              f"{percent(search.wanted)} were asked for; the truth may be a factor of two and more away from an estimate",
              *table(["what", "value", "part of the error", "order"], rows)]
-    lines += [f"note: {remark}" for remark in level.remarks]
+    lines += [f"note: {remark}" for remark in level.remarks + level.cautions]
     lines += [f"note: '{key}' has a single cell along an axis in all runs: what that does to the error is not known"
               for knob, factor in parts for key in knob.single_cells(factor)]
     lines += [f"this run: {own:.3g} core s; {count} others before: {others:.3g} core s; with their starts they have taken "

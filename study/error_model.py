@@ -20,6 +20,7 @@ class Part:
     seen: float = None  # the order that values show; nan: they do not come closer
     falls: bool = True  # do values come closer?
     is_sure: bool = False  # has the order been seen at several factors, alike?
+    caution: float = 1.0  # factor of the error, where the difference may be small by chance
     differences: list = field(default_factory=list)  # of all levels that tell the order, the last one first
 
     def error(self):
@@ -28,7 +29,8 @@ class Part:
 
     @property
     def size(self):
-        return float(numpy.sqrt(numpy.mean(numpy.square(self.error()))))
+        """Of what is missing, with caution."""
+        return self.caution * float(numpy.sqrt(numpy.mean(numpy.square(self.error()))))
 
     def hopeful(self):
         """With the order by theory."""
@@ -43,7 +45,7 @@ class ErrorModel:
         self.parts, self.own, self.overhead = parts, numpy.array(own), overhead
         self.factors = numpy.array([part.factor for part in parts])
         self.orders = numpy.array([part.order for part in parts])
-        errors = [part.error() for part in parts]
+        errors = [part.caution * part.error() for part in parts]
         self.products = numpy.array([[numpy.mean(one * other) for other in errors] for one in errors])
 
     def errors(self, factors):

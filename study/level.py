@@ -13,6 +13,8 @@ LITTLE = 0.1  # a part of the error that does not matter
 LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of smaller ones
 SLOWEST_GROWTH, STEEPEST_GROWTH = 0.5, 1.5  # of cost, in growths expected; others are noise
 MOST_OVERHEAD = 0.9  # of the cheapest run
+TELLING = 0.25  # a change, of the error, that tells something of it
+WORTH_TELLING = 1.2  # a caution
 ALIKE = 0.6  # of a change, what may not have been foretold
 
 
@@ -106,6 +108,9 @@ class Level:
                 self.model = self.model_of([self.alone(k, each) for k, each in enumerate(values)])
         self.remarks = [f"{knob.name}: values do not come closer yet"
                         for knob, part in zip(self.setting.knobs, self.model.parts) if not part.falls]
+        self.cautions = [f"{knob.name}: values have come closer than theory foretells, by chance perhaps; its part is taken "
+                         f"{part.caution:.1f} times as large"
+                         for knob, part in zip(self.setting.knobs, self.model.parts) if part.caution > WORTH_TELLING]
 
     def model_of(self, values):
         parts = [self.part(k, each) for k, each in enumerate(values)]
@@ -130,8 +135,9 @@ class Level:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
         order = orders.order_to_use(seen, is_sure, differences, knob.order)
         falls = own[0].size < LARGE * self.scale and not (seen is not None and math.isnan(seen))
+        caution = orders.caution(own[0], before.differences[0], knob.order) if before and before.differences else 1.0
         return Part(values[1] - values[0], own[0].ratio, factors[0], order, knob.order, self.growth(k, own[0].ratio),
-                    knob.growth, seen, falls, is_sure, differences)
+                    knob.growth, seen, falls, is_sure, caution, differences)
 
     @staticmethod
     def order_seen(own, before):
@@ -187,11 +193,11 @@ class Level:
 
     def confirmed_error(self, setting):
         """That of another setting, whose run tells whether the parts are what they seem: larger by as much as the quantity
-        has changed more than was foretold; None if it changes in another way."""
+        has changed more than was foretold; None if it changes in another way, or too little to tell."""
         own, other = self.pilot.compare([self.setting, setting], self.times)
         change, foretold = (other - own) / self.scale, self.model.change(setting.factors)
         error, size = self.model.error(setting.factors), convergence.norm(change)
-        if convergence.norm(change - foretold) > max(ALIKE * size, error / 2):
+        if size < TELLING * error or convergence.norm(change - foretold) > max(ALIKE * size, error / 2):
             return None
         more = size / convergence.norm(foretold) if size > error / 2 else 1.0
         return error * max(1.0, more) * self.scale / convergence.norm(other)

@@ -12,6 +12,7 @@ UNSEEN_ORDER = 1.5  # a prudent one, where none has been seen
 APART = 1.4  # factor between two settings that can tell an order
 ALIKE_ORDERS = 0.3  # largest difference
 GROWN = 1.5  # a difference, of that foretold, which is no longer that of the order
+MOST_CAUTION = 3.0
 SCATTER, DISTANCE = 0.1, 0.5  # expected: of logarithms of differences, and of an order from that of theory
 
 
@@ -56,6 +57,14 @@ def order_between(one, other):
 def has_grown(late, early, order):
     """Is a difference more than an earlier one at nearly the same factor has foretold?"""
     return late.size * early.size > 0 and late.constant(order) > GROWN * early.constant(order)
+
+
+def caution(late, early, expected):
+    """The factor by which a difference is smaller than an earlier one and theory foretell, as far as it is trusted: two grids
+    agree by chance, too."""
+    if not (late.is_apart(early) and late.factor > early.factor):
+        return 1.0
+    return min(max(early.constant(expected) / late.constant(expected), 1.0), MOST_CAUTION)
 
 
 def is_alike(one, other):

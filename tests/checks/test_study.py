@@ -830,6 +830,35 @@ class Accuracy(unittest.TestCase):
             self.assertTrue(found.levels[-1].is_complete())
             self.assertTrue(late or not all(level.is_complete() for level in found.levels))
 
+    def test_grids_that_agree_by_chance_are_not_trusted(self):
+        class Agreeing(FakePilot):
+            """Of which grids half as fine as the scene's give nearly the same as these, by chance."""
+
+            def error(self, setting):
+                step, cells = setting.factors
+                return FakePilot.error(self, Setting(setting.knobs, (step, 0.85)) if abs(cells - 0.5) < 0.1 else setting)
+
+        for late, caution in ((0.5, 1.0), (0.25, 1.0), (0.125, 2.0), (0.01, 3.0)):
+            early = orders.Difference(1.0, 2.0, 1.0)
+            self.assertAlmostEqual(orders.caution(orders.Difference(2.0, 2.0, late), early, 2.0), caution)
+        self.assertEqual(orders.caution(orders.Difference(1.1, 2.0, 0.1), early, 2.0), 1.0)
+        pilot = Agreeing((0.02, 0.3), (2, 2))
+        coarse = Level(pilot, self.first_setting(pilot))
+        setting = Setting(self.knobs, (0.25, 1.0))
+        pilot.run(setting)
+        fine = Level(pilot, setting, coarse)
+        true = convergence.norm(0.3 * numpy.sin(2 * pilot.times_of_rows)) / fine.scale
+        self.assertGreater(fine.model.parts[1].size, 0.35 * true)
+        self.assertIn("by chance", fine.cautions[0])
+
+    def test_a_run_that_changes_nothing_confirms_nothing(self):
+        pilot = FakePilot((0.02, 0.03), (2, 2))
+        level = Level(pilot, self.first_setting(pilot))
+        for factor, is_confirmed in ((1.02, False), (2.0, True)):
+            setting = Setting(self.knobs, tuple(factor * each for each in level.setting.factors))
+            pilot.run(setting)
+            self.assertEqual(level.confirmed_error(setting) is not None, is_confirmed)
+
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
             self.search(FakePilot((0, 0), (2, 2), noise=0.3), 0.01)
