@@ -9,7 +9,6 @@ from study.pilot import Refused
 COARSER, NEAR = 2.0, 1.4  # neighbours, in one thing; factor by which a run that is there already may be beside that
 NEARLY = 1.1  # factor between settings that are nearly the same
 CORRECTIONS = 2  # times that parts and what they foretell of each other are found
-LITTLE = 0.1  # a part of the error that does not matter
 LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of smaller ones
 SLOWEST_GROWTH, STEEPEST_GROWTH = 0.5, 1.5  # of cost, in growths expected; others are noise
 MOST_OVERHEAD = 0.9  # of the cheapest run
@@ -51,12 +50,12 @@ def nearly_neighbour(pilot, setting, k):
 
 class Level:
     """A setting, of whose error each part is known by a run that is coarser in one thing, or two. `before`: an earlier level
-    to tell orders. Raises NoCoarserRun."""
+    to tell orders, and parts of the error below `little`, which are not measured again. Raises NoCoarserRun."""
 
-    def __init__(self, pilot, setting, before=None):
+    def __init__(self, pilot, setting, before=None, little=0.0):
         self.pilot, self.setting, self.before, self.remarks = pilot, setting, before, []
         numbers = range(len(setting.knobs))
-        self.chains = [before.chains[k] if before and before.foretells_little_of(k, setting) else self.chain(k) for k in numbers]
+        self.chains = [before.chains[k] if before and before.foretold_size(k, setting) < little else self.chain(k) for k in numbers]
         self.evaluate()
 
     def chain(self, k):
@@ -69,11 +68,10 @@ class Level:
             raise NoCoarserRun(f"{knob.name}: no coarser run has succeeded", k)
         return [self.setting, neighbour]
 
-    def foretells_little_of(self, k, setting):
-        """Does one thing matter so little to the error of a finer setting that its part need not be measured there?"""
+    def foretold_size(self, k, setting):
+        """Of the part of one thing of the error of a finer setting; without limit where it does not fall yet."""
         part = self.model.parts[k]
-        size = part.size * (setting.factors[k] / part.factor) ** -part.order
-        return part.falls and part.seen is not None and size < LITTLE * self.model.error(setting.factors)
+        return part.size * (setting.factors[k] / part.factor) ** -part.order if part.falls and part.seen is not None else math.inf
 
     def is_complete(self):
         """Are all parts measured with this setting?"""
@@ -133,7 +131,7 @@ class Level:
         seen, is_sure = self.order_seen(own[0], before)
         if seen is None and len(chain) > 2 and own[0].size > 0:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
-        order = orders.order_to_use(seen, is_sure, differences, knob.order)
+        order = orders.order_to_use(seen, differences, knob.order)
         falls = own[0].size < LARGE * self.scale and not (seen is not None and math.isnan(seen))
         caution = orders.caution(own[0], before.differences[0], knob.order) if before and before.differences else 1.0
         return Part(values[1] - values[0], own[0].ratio, factors[0], order, knob.order, self.growth(k, own[0].ratio),

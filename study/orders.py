@@ -13,7 +13,7 @@ APART = 1.4  # factor between two settings that can tell an order
 ALIKE_ORDERS = 0.3  # largest difference
 GROWN = 1.5  # a difference, of that foretold, which is no longer that of the order
 MOST_CAUTION = 3.0
-SCATTER, DISTANCE = 0.1, 0.5  # expected: of logarithms of differences, and of an order from that of theory
+SCATTER, DISTANCE = 0.2, 0.5  # expected: of logarithms of differences, and of an order from that of theory
 
 
 @dataclass
@@ -73,19 +73,20 @@ def is_alike(one, other):
 
 
 def likely(differences, expected):
-    """The order by which differences fall, by least squares of their logarithms, with that of theory as one more observation."""
+    """The order by which differences fall, by least squares of their logarithms, with that of theory as one more observation.
+    How much logarithms scatter is what they show, with what is expected as one more of them."""
     tried = numpy.linspace(SMALLEST_ORDER, 2 * expected + 1, 400)
     logarithms = numpy.log([each.constant(tried) for each in differences])
-    misfits = numpy.sum(numpy.square((logarithms - logarithms.mean(axis=0)) / SCATTER), axis=0)
-    return float(tried[numpy.argmin(misfits + numpy.square((tried - expected) / DISTANCE))])
+    squares = numpy.sum(numpy.square(logarithms - logarithms.mean(axis=0)), axis=0)
+    scatter = (SCATTER ** 2 + squares.min()) / (len(differences) - 1)
+    return float(tried[numpy.argmin(squares / scatter + numpy.square((tried - expected) / DISTANCE))])
 
 
-def order_to_use(seen, is_sure, differences, expected):
-    """The likely one, if the last one seen was seen before, too; else no more than that. One greater than expected is chance.
-    A prudent one if none has been seen."""
+def order_to_use(seen, differences, expected):
+    """The likely one; one greater than expected is chance. A prudent one if none has been seen."""
     if seen is None:
         return min(expected, UNSEEN_ORDER)
     if math.isnan(seen):
         return SMALLEST_ORDER
-    order = likely(differences, expected) if len(differences) > 2 else seen
-    return min(max(order if is_sure else min(order, seen), SMALLEST_ORDER), expected)
+    order = likely(differences, expected) if len(differences) > 1 else seen
+    return min(max(order, SMALLEST_ORDER), expected)

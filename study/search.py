@@ -13,6 +13,7 @@ from study.tables import percent
 FIRST, LAST_FIRST = 0.25, 4.0  # factors of the first settings, of those of the scene
 SAME = 1e-6  # relative, of factors
 NEAR_ENOUGH = 3.0  # an error, of what is asked for, to begin with
+LITTLE = 0.1  # a part of the error, of what is asked for, that does not matter
 AIM = 0.9  # of the error asked for: the parts are estimates
 CHEAP = 8.0  # the last run, in costs of the one that foretells its error
 LARGEST_JUMP, CAREFUL_JUMP = 8.0, 4.0  # of cost, from one setting to the next; where the error is uncertain
@@ -143,7 +144,7 @@ class Search:
         if is_foretold and self.is_accurate(level, lambda: level.confirmed_error(setting)):
             return
         try:
-            self.levels.append(Level(self.pilot, setting, level))
+            self.levels.append(Level(self.pilot, setting, level, LITTLE * self.wanted))
         except NoCoarserRun:
             if setting in self.left:
                 raise
