@@ -12,6 +12,7 @@ from study.description import flat, numbers
 FEWEST_CELLS = 3
 CLOSE = 1.05  # factor between choices
 AROUND = 1.25
+ANY_STEPS = 2 ** 32 - 1  # so many that no run is stopped by their number
 UNEVEN = 0.12  # by rounding to whole numbers of cells
 
 
@@ -143,6 +144,8 @@ def order_in_time(found):
 def knobs_of(found):
     """All that the parameters of a scene have, by name."""
     dimension = int(found["Dimension"])
+    if float(found.get("Time/Maximum steps", ANY_STEPS)) < ANY_STEPS:
+        sys.exit("Error: with 'Time/Maximum steps' runs of other steps end at other times. Give 'Time/End' in its place.")
     if found["Scheme"] == "particle":
         print("note: sub-steps of particles follow from their spacing, which is refined; where 'Time/Step' bounds them, that is not "
               "looked at", file=sys.stderr)

@@ -17,7 +17,7 @@ import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 from study import analysis, columns, convergence, description, page, predictions, quantities, references, report, runs  # noqa: E402
-from study import orders, scene_files, stability, tables  # noqa: E402
+from study import orders, plots, scene_files, stability, tables  # noqa: E402
 from study.accuracy import default_column  # noqa: E402
 from study.campaign import readable  # noqa: E402
 from study.cases import Case, make_cases, of_scene, ranks  # noqa: E402
@@ -517,6 +517,22 @@ class Results(unittest.TestCase):
         with self.assertRaisesRegex(SystemExit, "column = value"):
             description.row("400")
 
+    def test_titles_and_messages_may_have_any_sign(self):
+        several = refinement("h", [4, 2, 1])
+        found = self.analyse(lambda i: 1 + 0.2 / 4 ** i, several)
+        found.study.title = r"Costs of $\nothing$ and $5"
+        found.results[Case((0,))]["failure"] = "max |v| is too large"
+        (result,) = found.quantities
+        result.errors.pop(Case((0,)), None)
+        with tempfile.TemporaryDirectory() as folder:
+            plots.work_precision(found, result, os.path.join(folder, "picture.svg"))
+            with open(os.path.join(folder, "picture.svg")) as file:
+                self.assertIn(r"\nothing", file.read())
+        lines = [line for line in tables.errors(found, result) if line]
+        self.assertIn(r"max \|v\| is too large", "".join(lines))
+        self.assertEqual({page.cells(line, "td").count("<td>") for line in lines if "---" not in line}, {4})
+        self.assertIn("max |v| is", page.cells(lines[2], "td"))
+
     def test_pictures_have_identifiers_of_any_name(self):
         self.assertIn('href="#2nd_peak_a"', page.inline_svg('<svg><g id="a"/><use href="#a"/></svg>', "2nd peak"))
 
@@ -880,6 +896,13 @@ class Accuracy(unittest.TestCase):
         with self.assertRaises(SystemExit) as refused:
             knobs_of({**found, "Domain/Planes y": "planes.txt"})
         self.assertIn("Planes y", str(refused.exception))
+
+    def test_a_number_of_steps_is_no_end(self):
+        found = {"Dimension": "2", "Scheme": "simultaneous", "Time/Step": "0.1", "Time/Maximum steps": "4294967295"}
+        self.assertEqual(len(knobs_of(found)), 1)
+        with self.assertRaises(SystemExit) as refused:
+            knobs_of({**found, "Time/Maximum steps": "5"})
+        self.assertIn("'Time/End'", str(refused.exception))
 
     def test_orders_in_time_are_those_of_integrators(self):
         for changed, order in (({}, 2), ({"Time/Integrator": "theta", "Time/Theta": "0.6"}, 1),
