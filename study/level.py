@@ -133,7 +133,7 @@ class Level:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
         order = orders.order_to_use(seen, differences, knob.order)
         falls = own[0].size < LARGE * self.scale and not (seen is not None and math.isnan(seen))
-        caution = orders.caution(own[0], before.differences[0], knob.order) if before and before.differences else 1.0
+        caution = orders.caution(own[0], before.differences, knob.order) if before else 1.0
         return Part(values[1] - values[0], own[0].ratio, factors[0], order, knob.order, self.growth(k, own[0].ratio),
                     knob.growth, seen, falls, is_sure, caution, differences)
 

@@ -39,10 +39,13 @@ def of_chain(factors, values, scale):
 
 
 def joined(late, early):
-    """Differences of which each tells something: of those at nearly the same factor the first, which is the later one."""
+    """The last difference and those before it that tell something of how they fall: of those at nearly the same factor the later
+    one, and none before they have begun to fall."""
     found = list(late[:1])
     for each in late[1:] + early:
-        if all(each.is_apart(other) for other in found):
+        if each.is_apart(found[-1]) and each.factor < found[-1].factor:
+            if each.size <= found[-1].size:
+                break
             found.append(each)
     return found
 
@@ -60,11 +63,10 @@ def has_grown(late, early, order):
 
 
 def caution(late, early, expected):
-    """The factor by which a difference is smaller than an earlier one and theory foretell, as far as it is trusted: two grids
+    """The factor by which a difference is smaller than all earlier ones and theory foretell, as far as it is trusted: two grids
     agree by chance, too."""
-    if not (late.is_apart(early) and late.factor > early.factor):
-        return 1.0
-    return min(max(early.constant(expected) / late.constant(expected), 1.0), MOST_CAUTION)
+    foretold = [each.constant(expected) for each in early if late.is_apart(each) and late.factor > each.factor]
+    return min(max(min(foretold) / late.constant(expected), 1.0), MOST_CAUTION) if foretold else 1.0
 
 
 def is_alike(one, other):

@@ -856,8 +856,8 @@ class Accuracy(unittest.TestCase):
 
         for late, caution in ((0.5, 1.0), (0.25, 1.0), (0.125, 2.0), (0.01, 3.0)):
             early = orders.Difference(1.0, 2.0, 1.0)
-            self.assertAlmostEqual(orders.caution(orders.Difference(2.0, 2.0, late), early, 2.0), caution)
-        self.assertEqual(orders.caution(orders.Difference(1.1, 2.0, 0.1), early, 2.0), 1.0)
+            self.assertAlmostEqual(orders.caution(orders.Difference(2.0, 2.0, late), [early], 2.0), caution)
+        self.assertEqual(orders.caution(orders.Difference(1.1, 2.0, 0.1), [early], 2.0), 1.0)
         pilot = Agreeing((0.02, 0.3), (2, 2))
         coarse = Level(pilot, self.first_setting(pilot))
         setting = Setting(self.knobs, (0.25, 1.0))
@@ -927,6 +927,8 @@ class Accuracy(unittest.TestCase):
         self.assertLess(abs(seen(0, 0.3, -0.3, 0, order=2.0) - 2.0), 0.25)  # where the last two alone show 1.6, those before 2.9
         self.assertGreater(seen(0, 0.2), 1.4)  # by these two alone, 1.2
         self.assertLess(seen(0, 0, order=1.0), 1.5)
+        coarse = [orders.Difference(2.0 ** -k, 2.0, size) for k, size in enumerate((0.1, 0.4, 0.7, 0.3))]
+        self.assertEqual(orders.joined(coarse[:1], coarse[1:]), coarse[:3])  # before these, differences do not fall
 
     def test_an_order_is_confirmed_by_differences_at_other_factors_only(self):
         before = Part(numpy.array([1e-2]), 2, 1.0, 1.0, 2.0, 1, 1, seen=1.0, differences=[orders.Difference(1.0, 2, 1e-2)])
