@@ -12,7 +12,7 @@ CORRECTIONS = 2  # times that parts and what they foretell of each other are fou
 LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of smaller ones
 SLOWEST_GROWTH, STEEPEST_GROWTH = 0.5, 1.5  # of cost, in growths expected; others are noise
 MOST_OVERHEAD = 0.9  # of the cheapest run
-TELLING = 0.25  # a change, of the error, that tells something of it
+TELLING = 0.25  # a change, of the error, that tells something of it, if one was foretold
 WORTH_TELLING = 1.2  # a caution
 ALIKE = 0.6  # of a change, what may not have been foretold
 
@@ -191,12 +191,13 @@ class Level:
 
     def confirmed_error(self, setting):
         """That of another setting, whose run tells whether the parts are what they seem: larger by as much as the quantity
-        has changed more than was foretold; None if it changes in another way, or too little to tell."""
+        has changed more than was foretold; None if it changes in another way, or by nothing where that was not foretold."""
         own, other = self.pilot.compare([self.setting, setting], self.times)
         change, foretold = (other - own) / self.scale, self.model.change(setting.factors)
-        error, size = self.model.error(setting.factors), convergence.norm(change)
-        if size < TELLING * error or convergence.norm(change - foretold) > max(ALIKE * size, error / 2):
+        error, size, expected = self.model.error(setting.factors), convergence.norm(change), convergence.norm(foretold)
+        tells_too_little = size < TELLING * error < expected
+        if tells_too_little or convergence.norm(change - foretold) > max(ALIKE * size, error / 2):
             return None
-        more = size / convergence.norm(foretold) if size > error / 2 else 1.0
+        more = size / expected if size > error / 2 else 1.0
         return error * max(1.0, more) * self.scale / convergence.norm(other)
 

@@ -868,12 +868,18 @@ class Accuracy(unittest.TestCase):
         self.assertIn("by chance", fine.cautions[0])
 
     def test_a_run_that_changes_nothing_confirms_nothing(self):
-        pilot = FakePilot((0.02, 0.03), (2, 2))
-        level = Level(pilot, self.first_setting(pilot))
-        for factor, is_confirmed in ((1.02, False), (2.0, True)):
+        class Stuck(FakePilot):
+            def error(self, setting):
+                least = [min(factor, self.finest) for factor in setting.factors]
+                return FakePilot.error(self, Setting(setting.knobs, tuple(least)))
+
+        for finest, factor, is_confirmed in ((9, 2.0, True), (9, 1.02, True), (0.25, 1.02, True), (0.25, 1.2, False), (0.25, 2.0, False)):
+            pilot = Stuck((0.02, 0.03), (2, 2))
+            pilot.finest = finest
+            level = Level(pilot, self.first_setting(pilot))
             setting = Setting(self.knobs, tuple(factor * each for each in level.setting.factors))
             pilot.run(setting)
-            self.assertEqual(level.confirmed_error(setting) is not None, is_confirmed)
+            self.assertEqual(level.confirmed_error(setting) is not None, is_confirmed, (finest, factor))
 
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
