@@ -83,9 +83,9 @@ def search_for(program, name, wanted, folder):
     return search
 
 
-def row(search, truth, sure, with_best):
+def row(search, spent, truth, sure, with_best):
     pilot, setting, wanted = search.pilot, search.setting, search.wanted
-    cost, (_, (others, _), count) = pilot.costs[setting], pilot.spent(setting)
+    cost, (_, (others, _), count) = pilot.costs[setting], spent
     error = relative_error(pilot.values[setting], truth)
     best = best_cost(pilot, setting, wanted, truth, sure) if with_best else float("nan")
     settings = "; ".join(f"{value}" for knob, factor in zip(setting.knobs, setting.factors)
@@ -97,17 +97,18 @@ def row(search, truth, sure, with_best):
 def rows(program, name, errors_wanted, with_best):
     """Of one scene, whose truth is that next to the most accurate of its runs."""
     with tempfile.TemporaryDirectory() as folder:
-        found, texts = {}, {}
+        found, spent, texts = {}, {}, {}
         for wanted in errors_wanted:
             try:
                 found[wanted] = search_for(program, name, wanted, os.path.join(folder, f"{wanted}"))
+                spent[wanted] = found[wanted].pilot.spent(found[wanted].setting)  # before there are runs for the truth
             except Refused as reason:
                 texts[wanted] = f"refused: {reason}"
         if found:
             finest = found[min(found)]
             truth, sure = limit(finest.pilot, finest.setting)
             missing = "" if truth else f"no truth: {list(finest.pilot.failures.values())[-1]}"
-            texts.update({wanted: missing or row(search, truth, sure, with_best) for wanted, search in found.items()})
+            texts.update({wanted: missing or row(search, spent[wanted], truth, sure, with_best) for wanted, search in found.items()})
     return [f"| {name} | {percent(wanted)} | {texts[wanted]} |" for wanted in errors_wanted]
 
 

@@ -11,6 +11,7 @@ import argparse
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -117,7 +118,7 @@ def main(words):
     with tempfile.TemporaryDirectory() as folder:
         pilot = Pilot(options.program, study, lambda columns: quantity_of(options.of or default_column(columns),
                                                                           options.measure, columns), folder, deadline,
-                      Destination(output, written, options.overwrite))
+                      Destination(output, written, options.overwrite), len(os.sched_getaffinity(0)))
         known = earlier.load(pilot, all_knobs, found, same_probes=not options.of)
         if known:
             print(f"{known} runs of earlier studies of this scene in '{earlier.FOLDER}' are used", file=sys.stderr)
@@ -128,9 +129,11 @@ def main(words):
             left = f" What is in '{output}' is less accurate." if pilot.has_outputs else ""
             sys.exit(f"\nError: an error of {percent(options.accuracy)} was not reached: {reason}.{left}")
         except KeyboardInterrupt:
-            print("\nstopped; " + (f"'./undine resume {output}' goes on with the run that was under way" if pilot.under_way else
-                                   f"what is in '{output}' is less accurate" if pilot.has_outputs else "there is no result yet"), file=sys.stderr)
-            sys.exit(130)
+            said = (f"'./undine resume {output}' goes on with the run that was under way" if pilot.under_way else
+                    f"what is in '{output}' is less accurate" if pilot.has_outputs else "there is no result yet")
+            print(f"\nstopped; {said}", file=sys.stderr, flush=True)
+            shutil.rmtree(folder, ignore_errors=True)
+            os._exit(130)  # without waiting for coarse runs, which end with this program
         print(report(search))
         print(f"results: {output}")
         if found.get("Output/Report") == "true" and os.environ.get("UNDINE_REPORT") != "off":

@@ -55,18 +55,25 @@ class Level:
     def __init__(self, pilot, setting, before=None, little=0.0):
         self.pilot, self.setting, self.before, self.remarks = pilot, setting, before, []
         numbers = range(len(setting.knobs))
-        self.chains = [before.chains[k] if before and before.foretold_size(k, setting) < little else self.chain(k) for k in numbers]
-        self.evaluate()
+        self.chains = [before.chains[k] if before and before.foretold_size(k, setting) < little else None for k in numbers]
+        self.measure([k for k in numbers if not self.chains[k]])
 
-    def chain(self, k):
-        """The setting and a neighbour that is coarser in one thing."""
-        knob = self.setting.knobs[k]
-        neighbour = nearly_neighbour(self.pilot, self.setting, k) or coarser_neighbour(self.pilot, self.setting, k, COARSER)
-        if neighbour is None or self.pilot.run(neighbour) is None:
-            if neighbour:
-                self.pilot.too_coarse[k] = max(neighbour.factors[k], self.pilot.too_coarse.get(k, 0.0))
-            raise NoCoarserRun(f"{knob.name}: no coarser run has succeeded", k)
-        return [self.setting, neighbour]
+    def complete(self):
+        """Measure all parts with this setting."""
+        self.measure([k for k, chain in enumerate(self.chains) if chain[0] != self.setting])
+
+    def measure(self, numbers):
+        """The parts of some knobs, by neighbours that are coarser in one thing and run at the same time."""
+        neighbours = {k: nearly_neighbour(self.pilot, self.setting, k) or coarser_neighbour(self.pilot, self.setting, k, COARSER)
+                      for k in numbers}
+        self.pilot.run_all([each for each in neighbours.values() if each])
+        for k, neighbour in neighbours.items():
+            if neighbour not in self.pilot.values:
+                if neighbour:
+                    self.pilot.too_coarse[k] = max(neighbour.factors[k], self.pilot.too_coarse.get(k, 0.0))
+                raise NoCoarserRun(f"{self.setting.knobs[k].name}: no coarser run has succeeded", k)
+            self.chains[k] = [self.setting, neighbour]
+        self.evaluate()
 
     def foretold_size(self, k, setting):
         """Of the part of one thing of the error of a finer setting; without limit where it does not fall yet."""
@@ -77,17 +84,14 @@ class Level:
         """Are all parts measured with this setting?"""
         return all(chain[0] == self.setting for chain in self.chains)
 
-    def complete(self):
-        """Measure all parts with this setting."""
-        self.chains = [chain if chain[0] == self.setting else self.chain(k) for k, chain in enumerate(self.chains)]
-        self.evaluate()
-
     def see_orders(self):
         """By a second neighbour of each knob of which no order has been seen."""
-        for k, part in enumerate(self.model.parts):
-            neighbour = coarser_neighbour(self.pilot, self.setting, k, COARSER ** 2) if part.seen is None else None
-            is_apart = neighbour and neighbour.factors[k] < 0.8 * self.chains[k][-1].factors[k]
-            if is_apart and self.pilot.run(neighbour) is not None:
+        neighbours = {k: coarser_neighbour(self.pilot, self.setting, k, COARSER ** 2)
+                      for k, part in enumerate(self.model.parts) if part.seen is None}
+        neighbours = {k: each for k, each in neighbours.items() if each and each.factors[k] < 0.8 * self.chains[k][-1].factors[k]}
+        self.pilot.run_all(neighbours.values())
+        for k, neighbour in neighbours.items():
+            if neighbour in self.pilot.values:
                 self.chains[k] = self.chains[k] + [neighbour]
         self.evaluate()
 

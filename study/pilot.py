@@ -3,6 +3,7 @@
 import os
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 from study import quantities, runs
@@ -66,9 +67,9 @@ class Pilot:
     """Makes runs of a scene and remembers what they gave. Folders of coarse runs are in `folder`. `choose`: the quantity
     that is to be accurate, by the columns of the first run."""
 
-    def __init__(self, program, study, choose, folder, deadline, destination=None):
+    def __init__(self, program, study, choose, folder, deadline, destination=None, jobs=1):
         self.program, self.study, self.choose, self.quantity = program, study, choose, None
-        self.folder, self.deadline, self.destination = folder, deadline, destination
+        self.folder, self.deadline, self.destination, self.jobs = folder, deadline, destination, jobs
         self.values, self.costs, self.failures = {}, {}, {}  # costs: core seconds without those of the start and of outputs
         self.paces = {}  # (seconds of the clock for the whole run, the same for each core second) of settings
         self.made = []  # (setting, core seconds, seconds of the clock) of runs made here, not taken from earlier studies
@@ -95,12 +96,21 @@ class Pilot:
 
     def run(self, setting):
         """Values of the quantity with a setting; None if the run has failed."""
-        if setting not in self.costs:
-            folder = os.path.join(self.folder, f"{len(self.costs)}")
-            result = runs.once(self.program, self.study, setting, folder, self.limit())
+        self.run_all([setting])
+        return self.values.get(setting)
+
+    def run_all(self, settings):
+        """Make the runs of settings that are not there yet, as many at the same time as there are jobs."""
+        missing = [setting for setting in dict.fromkeys(settings) if setting not in self.costs]
+        folders = [os.path.join(self.folder, f"{len(self.made) + number}") for number in range(len(missing))]
+        pool = ThreadPoolExecutor(self.jobs)
+        try:
+            results = list(pool.map(lambda *of_run: runs.once(self.program, self.study, *of_run, self.limit()), missing, folders))
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)  # a user who stops does not wait for runs
+        for setting, folder, result in zip(missing, folders, results):
             self.made.append((setting, result["core seconds"], result["elapsed"]))
             self.take(setting, result, os.path.join(folder, "run"))
-        return self.values.get(setting)
 
     def run_with_outputs(self, setting):
         """The same with all outputs that the scene asks for, in the user's folder; None if the run has failed."""

@@ -401,12 +401,17 @@ class FakePilot:
         return parts + self.noise * numpy.cos(100 * sum(setting.factors) * self.times_of_rows)
 
     def run(self, setting):
-        self.costs[setting] = self.overhead + math.prod(factor ** (self.steep * knob.growth) for knob, factor in zip(setting.knobs, setting.factors))
+        self.costs[setting] = self.overhead + math.prod(factor ** (self.steep * knob.growth)
+                                                        for knob, factor in zip(setting.knobs, setting.factors))
         self.values[setting] = quantities.Values(self.times_of_rows, (self.exact() + self.error(setting))[:, None])
         return self.values[setting]
 
     def run_with_outputs(self, setting):
         return self.run(setting)
+
+    def run_all(self, settings):
+        for setting in settings:
+            self.run(setting)
 
     def times(self, _):
         return self.times_of_rows
@@ -803,6 +808,26 @@ class Accuracy(unittest.TestCase):
         self.assertEqual(known_level(pilot, 1e-6).setting.factors, (4, 4))
         self.assertIsNone(known_level(FakePilot((0.02, 0.03), (2, 2)), 0.1))
 
+    def test_neighbours_run_at_the_same_time(self):
+        together, most = [], []
+
+        def once(_program, _study, setting, folder, _limit):
+            together.append(setting)
+            time.sleep(0.2)
+            most.append(len(together))
+            together.remove(setting)
+            os.makedirs(os.path.join(folder, "run"))
+            with open(os.path.join(folder, "run", "statistics"), "w") as file:
+                file.write(f"# 1: Time [s]\n# 2: a [1]\n0 1\n1 {1 + 0.1 / sum(setting.factors)}\n")
+            return {"failure": "", "stopped": False, "core seconds": 1.0, "elapsed": 1.0}
+
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(io.StringIO()), \
+                unittest.mock.patch.object(runs, "once", once):
+            pilot = Pilot("", study(), lambda _: quantity_of("a", "end"), folder, None, jobs=2)
+            level = Level(pilot, self.first_setting(pilot))
+            level.see_orders()
+        self.assertEqual((max(most), len(pilot.made), len(pilot.values)), (2, 5, 5))
+
     def test_starts_count_for_the_time_allowed(self):
         pilot = Pilot("", study(), lambda _: quantity_of("a", "end"), "", None)
         one = Setting(self.knobs, (1.0, 1.0))
@@ -950,7 +975,8 @@ class Accuracy(unittest.TestCase):
             pilot.run(setting)
             levels.append(Level(pilot, setting, *levels[-1:]))
             levels[-1].see_orders()
-        self.assertEqual([[part.is_sure for part in level.model.parts] for level in levels], [[False, False], [False, False], [True, False]])
+        self.assertEqual([[part.is_sure for part in level.model.parts] for level in levels],
+                         [[False, False], [False, False], [True, False]])
         for part in levels[-1].model.parts:
             self.assertAlmostEqual(part.seen, 1.3, 6)
 
