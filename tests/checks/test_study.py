@@ -16,6 +16,7 @@ import unittest.mock
 import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+from benchmarks import estimates, hard_case_laws  # noqa: E402
 from study import analysis, columns, convergence, description, page, predictions, quantities, references, report, runs  # noqa: E402
 from study import orders, plots, scene_files, stability, tables  # noqa: E402
 from study.accuracy import default_column  # noqa: E402
@@ -152,6 +153,12 @@ class Quantities(unittest.TestCase):
                 self.assertAlmostEqual(found, exact, 3)
         rising = {"Time": numpy.arange(3.0), "a": numpy.array([0.0, 1, 4])}
         self.assertEqual(quantities.evaluate(quantity(evaluate="largest"), rising).values[0, 0], 4)
+
+    def test_extremes_of_rows_that_are_unevenly_apart(self):
+        times = numpy.array([0, 0.2, 0.5, 0.6, 1.0, 1.3])
+        ((at,), (value,)) = hard_case_laws.extremes(times, 1 - (times - 0.53) ** 2, 0.01)
+        self.assertAlmostEqual(at, 0.53, 12)
+        self.assertAlmostEqual(value, 1.0, 12)
 
     def test_columns_are_added_and_multiplied(self):
         self.assertAlmostEqual(self.value(columns=["b", "b"], factor=500), 1000)
@@ -905,6 +912,15 @@ class Accuracy(unittest.TestCase):
             setting = Setting(self.knobs, tuple(factor * each for each in level.setting.factors))
             pilot.run(setting)
             self.assertEqual(level.confirmed_error(setting) is not None, is_confirmed, (finest, factor))
+
+    def test_the_cheapest_settings_of_the_benchmark_are_accurate_whatever_the_truth_is(self):
+        pilot = FakePilot((0.02, 0.03), (2, 2))
+        setting = Setting(self.knobs, (2.0, 2.0))
+        pilot.run(setting)
+        truth = quantities.Values(pilot.times_of_rows, pilot.exact()[:, None])
+        surely, perhaps, never = (estimates.best_cost(pilot, setting, 0.02, truth, sure) for sure in (0.0, 0.006, 0.03))
+        self.assertLess(surely, perhaps)
+        self.assertTrue(math.isnan(never))
 
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
