@@ -19,7 +19,6 @@ class Part:
     expected_growth: float
     seen: float = None  # the order that values show; nan: they do not come closer
     falls: bool = True  # do values come closer?
-    is_sure: bool = False  # has the order been seen at several factors, alike?
     caution: float = 1.0  # factor of the error, where the difference may be small by chance
     differences: list = field(default_factory=list)  # of all levels that tell the order, the last one first
 

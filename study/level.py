@@ -132,27 +132,25 @@ class Level:
         own = orders.of_chain(factors, values, self.scale)
         before = self.before.model.parts[k] if self.before else None
         differences = orders.joined(own, before.differences if before else [])
-        seen, is_sure = self.order_seen(own[0], before)
+        seen = self.order_seen(own[0], before)
         if seen is None and len(chain) > 2 and own[0].size > 0:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
         order = orders.order_to_use(seen, differences, knob.order)
         falls = own[0].size < LARGE * self.scale and not (seen is not None and math.isnan(seen))
         caution = orders.caution(own[0], before.differences, knob.order) if before else 1.0
         return Part(values[1] - values[0], own[0].ratio, factors[0], order, knob.order, self.growth(k, own[0].ratio),
-                    knob.growth, seen, falls, is_sure, caution, differences)
+                    knob.growth, seen, falls, caution, differences)
 
     @staticmethod
     def order_seen(own, before):
-        """The order between a difference of this level and the next one of an earlier level, and whether that has seen it, too;
-        as the earlier level has seen it, if factors are too close to tell one; None if none was seen or differences have grown."""
-        if not before:
-            return None, False
-        if before.differences and own.is_apart(before.differences[0]):
-            seen = orders.order_between(own, before.differences[0])
-            return seen, orders.is_alike(seen, before.seen)
-        if not before.falls or (before.differences and orders.has_grown(own, before.differences[0], before.order)):
-            return None, False
-        return before.seen, before.is_sure
+        """The order between a difference of this level and that of an earlier one; as the earlier level has seen it, if factors
+        are too close to tell one; None if none was seen or differences have grown."""
+        if not before or not before.differences:
+            return None
+        early = before.differences[0]
+        if own.is_apart(early):
+            return orders.order_between(own, early)
+        return before.seen if before.falls and not orders.has_grown(own, early, before.order) else None
 
     def growth(self, k, ratio):
         """Of the cost without outputs and what does not grow."""

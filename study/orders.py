@@ -10,7 +10,6 @@ from study import convergence
 SMALLEST_ORDER = 0.7
 UNSEEN_ORDER = 1.5  # a prudent one, where none has been seen
 APART = 1.4  # factor between two settings that can tell an order
-ALIKE_ORDERS = 0.3  # largest difference
 GROWN = 1.5  # a difference, of that foretold, which is no longer that of the order
 MOST_CAUTION = 3.0
 SCATTER, DISTANCE = 0.2, 0.5  # expected: of logarithms of differences, and of an order from that of theory
@@ -67,11 +66,6 @@ def caution(late, early, expected):
     agree by chance, too."""
     foretold = [each.constant(expected) for each in early if late.is_apart(each) and late.factor > each.factor]
     return min(max(min(foretold) / late.constant(expected), 1.0), MOST_CAUTION) if foretold else 1.0
-
-
-def is_alike(one, other):
-    """Do two orders, None if not seen, confirm each other?"""
-    return one is not None and other is not None and abs(one - other) < ALIKE_ORDERS
 
 
 def likely(differences, expected):
