@@ -39,6 +39,7 @@ def report(search):
     expected = search.expected_error()
     cancels = f" ({percent(expected)} if parts cancel each other as they seem to)" if expected < 0.8 * search.error else ""
     half, is_enough = search.cost_of_half()
+    half += own - pilot.costs[setting]  # its outputs
     lines = ["", f"error of '{pilot.quantity.name}' ({pilot.quantity.evaluate}): about {percent(search.error)}{cancels}, "
              f"{percent(search.wanted)} were asked for; the truth may be a factor of two and more away from an estimate",
              *table(["what", "value", "part of the error", "order"], rows)]
