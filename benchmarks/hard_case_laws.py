@@ -45,6 +45,15 @@ class Hard:
                 Law("energy above the start / potential energy", gained_energy, 0, self.above, True)]
 
 
+def peak(times, values):
+    """Time and value of the extreme of the parabola through three values, be they unevenly apart."""
+    left, right = numpy.diff(values) / numpy.diff(times)
+    bend = (right - left) / (times[2] - times[0])
+    slope = left + bend * (times[1] - times[0])
+    shift = -slope / (2 * bend) if bend != 0 else 0.0
+    return times[1] + shift, values[1] + slope * shift / 2
+
+
 def extremes(times, values, least):
     """Times and values of the extremes, by parabolas through three values each; what goes back by less than `least` is none."""
     found, turning = [], 0  # index of the extreme since the last one that was found
@@ -56,10 +65,7 @@ def extremes(times, values, least):
         if further:
             turning = k
         elif rising is not None and abs(values[k] - values[turning]) > least:
-            before, here, after = (values[turning + i] - values[turning] for i in (-1, 0, 1))
-            slope, bend = (after - before) / 2, (after + before) / 2
-            shift = -slope / (2 * bend) if bend != 0 else 0.0
-            found.append((times[turning] + shift * (times[k] - times[k - 1]), values[turning] + here + slope * shift / 2))
+            found.append(peak(times[turning - 1:turning + 2], values[turning - 1:turning + 2]))
             rising, turning = not rising, k
     return numpy.array(found).reshape(-1, 2).T
 

@@ -10,7 +10,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from report import thinning
-from study.page import inline_svg
+from study.page import inline_svg, plain
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f3c8d", "#8c564b", "#555555", "#bcbd22",
            "#1f4e79", "#a63603", "#31a354", "#ad1457", "#997700", "#3182bd")
@@ -39,11 +39,6 @@ class Curve:
 def digits(values):
     """As numbers of JSON with ten digits, which is what files of Undine have."""
     return [float(f"{value:.9e}") for value in values]
-
-
-def plain(text):
-    """For Matplotlib, which takes what stands between two $ for a formula."""
-    return text.replace("$", r"\$")
 
 
 def is_logarithmic(curves, unit, kind):

@@ -14,7 +14,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from report import shapes, vtu
-from report.figure import plain
+from study.page import plain
 
 MOST_BYTES = 60_000_000  # of the files of one time: a larger solution takes too long
 MOST_POLYGONS = 60_000  # of the fluid in a plane; finer grids are drawn by pixels

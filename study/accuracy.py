@@ -11,15 +11,17 @@ import argparse
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import time
 
-from study import earlier, knobs, runs
+from study import earlier, knobs
+from study.campaign import readable
 from study.description import Study
 from study.duration import duration
-from study.pilot import Pilot, Refused, quantity_of
+from study.pilot import Destination, Pilot, Refused, quantity_of
 from study.search import Search
 from study.tables import percent, table
 
@@ -30,20 +32,22 @@ def report(search):
     """What the user is told at the end."""
     pilot, setting, level = search.pilot, search.setting, search.levels[-1]
     parts = list(zip(setting.knobs, setting.factors))
-    others, count = pilot.cost_of_others(setting)
+    (own, own_wall), (others, wall), count = pilot.spent(setting)
     rows = [[knob.name, "; ".join(knob.settings(factor).values()), percent(size),
              f"{part.order:.1f}" + ("" if part.seen is not None else " (assumed)")]
             for (knob, factor), size, part in zip(parts, search.parts(), level.model.parts)]
     expected = search.expected_error()
     cancels = f" ({percent(expected)} if parts cancel each other as they seem to)" if expected < 0.8 * search.error else ""
     half, is_enough = search.cost_of_half()
+    half += own - pilot.costs[setting]  # its outputs
     lines = ["", f"error of '{pilot.quantity.name}' ({pilot.quantity.evaluate}): about {percent(search.error)}{cancels}, "
              f"{percent(search.wanted)} were asked for; the truth may be a factor of two and more away from an estimate",
              *table(["what", "value", "part of the error", "order"], rows)]
-    lines += [f"note: {remark}" for remark in level.remarks]
+    lines += [f"note: {remark}" for remark in level.remarks + level.cautions]
     lines += [f"note: '{key}' has a single cell along an axis in all runs: what that does to the error is not known"
               for knob, factor in parts for key in knob.single_cells(factor)]
-    lines += [f"this run: {pilot.costs[setting]:.3g} core s; {count} others before: {others:.3g} core s",
+    lines += [f"this run: {own:.3g} core s; {count} others before: {others:.3g} core s; with their starts they have taken "
+              f"{readable(own_wall)} and {readable(wall)}",
               f"half of the error would take {'about' if is_enough else 'more than'} {half:.3g} core s"]
     return "\n".join(lines)
 
@@ -114,31 +118,23 @@ def main(words):
         refuse_folder(output)
     with tempfile.TemporaryDirectory() as folder:
         pilot = Pilot(options.program, study, lambda columns: quantity_of(options.of or default_column(columns),
-                                                                          options.measure, columns), folder, deadline)
+                                                                          options.measure, columns), folder, deadline,
+                      Destination(output, written, options.overwrite), len(os.sched_getaffinity(0)))
         known = earlier.load(pilot, all_knobs, found, same_probes=not options.of)
         if known:
             print(f"{known} runs of earlier studies of this scene in '{earlier.FOLDER}' are used", file=sys.stderr)
-        tries, under_way = [], []
-
-        def run_with_outputs(setting):
-            words = [options.program, options.scene, "--output", output, *runs.assignments(written)]
-            words += ["--overwrite"] * (options.overwrite or bool(tries))
-            tries.append(setting)
-            under_way.append(setting)
-            found = pilot.run_with_outputs(setting, words, output)
-            under_way.pop()
-            return found
-
         try:
-            search = Search(pilot, all_knobs, options.accuracy, run_with_outputs)
+            search = Search(pilot, all_knobs, options.accuracy)
             search.run()
         except Refused as reason:
-            left = f" What is in '{output}' is less accurate." if tries else ""
+            left = f" What is in '{output}' is less accurate." if pilot.has_outputs else ""
             sys.exit(f"\nError: an error of {percent(options.accuracy)} was not reached: {reason}.{left}")
         except KeyboardInterrupt:
-            print("\nstopped; " + (f"'./undine resume {output}' goes on with the run that was under way" if under_way else
-                                   f"what is in '{output}' is less accurate" if tries else "there is no result yet"), file=sys.stderr)
-            sys.exit(130)
+            said = (f"'./undine resume {output}' goes on with the run that was under way" if pilot.under_way else
+                    f"what is in '{output}' is less accurate" if pilot.has_outputs else "there is no result yet")
+            print(f"\nstopped; {said}", file=sys.stderr, flush=True)
+            shutil.rmtree(folder, ignore_errors=True)
+            os._exit(130)  # without waiting for coarse runs, which end with this program
         print(report(search))
         print(f"results: {output}")
         if found.get("Output/Report") == "true" and os.environ.get("UNDINE_REPORT") != "off":

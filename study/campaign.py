@@ -16,7 +16,7 @@ LATER = {"failure": "left out: would not end within the time allowed", "left out
 
 def readable(seconds):
     if seconds < 90:
-        return f"{seconds:.0f} s"
+        return f"{seconds:.1f} s" if seconds < 9.95 else f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 

@@ -76,7 +76,7 @@ def load(pilot, all_knobs, scene, folder=FOLDER, same_probes=False):
             continue
         try:
             pilot.take(setting, result, case)
-            found += 1
+            found += setting in pilot.values
         except Refused:  # it has recorded other columns
             pilot.forget(setting)
     return found

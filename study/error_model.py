@@ -2,7 +2,7 @@
 """An error as a sum of parts, one for each thing that can be refined, which fall with powers of its refinement; and the
 cheapest factors for an error that is asked for."""
 import itertools
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy
 
@@ -19,6 +19,8 @@ class Part:
     expected_growth: float
     seen: float = None  # the order that values show; nan: they do not come closer
     falls: bool = True  # do values come closer?
+    caution: float = 1.0  # factor of the error, where the difference may be small by chance
+    differences: list = field(default_factory=list)  # of all levels that tell the order, the last one first
 
     def error(self):
         """What is missing from the limit."""
@@ -26,7 +28,8 @@ class Part:
 
     @property
     def size(self):
-        return float(numpy.sqrt(numpy.mean(numpy.square(self.error()))))
+        """Of what is missing, with caution."""
+        return self.caution * float(numpy.sqrt(numpy.mean(numpy.square(self.error()))))
 
     def hopeful(self):
         """With the order by theory."""
@@ -34,13 +37,14 @@ class Part:
 
 
 class ErrorModel:
-    """(Q3), (Q4): errors and costs of factors that are near those of the parts."""
+    """(Q3), (Q4): errors and costs of factors that are near those of a setting, which are its own ones. `overhead`: of the cost
+    of that setting, what does not grow."""
 
-    def __init__(self, parts):
-        self.parts = parts
+    def __init__(self, parts, own, overhead=0.0):
+        self.parts, self.own, self.overhead = parts, numpy.array(own), overhead
         self.factors = numpy.array([part.factor for part in parts])
         self.orders = numpy.array([part.order for part in parts])
-        errors = [part.error() for part in parts]
+        errors = [part.caution * part.error() for part in parts]
         self.products = numpy.array([[numpy.mean(one * other) for other in errors] for one in errors])
 
     def errors(self, factors):
@@ -62,17 +66,18 @@ class ErrorModel:
         return float(numpy.sqrt(max(0.0, weights @ self.products @ weights)))
 
     def change(self, factors):
-        """What the quantity changes by from the setting of the parts to another one, in sizes of the quantity."""
-        weights = (numpy.array(factors) / self.factors) ** -self.orders
-        return sum(part.error() * (weight - 1) for part, weight in zip(self.parts, weights))
+        """What the quantity changes by from the setting to another one, in sizes of the quantity."""
+        weights = (numpy.array(factors) / self.factors) ** -self.orders - (self.own / self.factors) ** -self.orders
+        return sum(part.error() * weight for part, weight in zip(self.parts, weights))
 
     def cost(self, factors):
-        """In costs of the setting of the parts, as they have been seen to grow."""
-        return numpy.prod((factors / self.factors) ** [part.growth for part in self.parts], axis=-1)
+        """In costs of the setting, as they have been seen to grow."""
+        growing = numpy.prod((factors / self.own) ** [part.growth for part in self.parts], axis=-1)
+        return self.overhead + (1 - self.overhead) * growing
 
     def expected_cost(self, factors):
         """The same as they should grow, were runs long."""
-        return numpy.prod((factors / self.factors) ** [part.expected_growth for part in self.parts], axis=-1)
+        return numpy.prod((factors / self.own) ** [part.expected_growth for part in self.parts], axis=-1)
 
     def cheapest(self, wanted, choices):
         """Of the factors to choose from for each thing those with the least cost for an error; None if none are fine enough."""

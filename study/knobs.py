@@ -12,6 +12,7 @@ from study.description import flat, numbers
 FEWEST_CELLS = 3
 CLOSE = 1.05  # factor between choices
 AROUND = 1.25
+ANY_STEPS = 2 ** 32 - 1  # so many that no run is stopped by their number
 UNEVEN = 0.12  # by rounding to whole numbers of cells
 
 
@@ -55,7 +56,7 @@ class Knob:
     def coarsest(self):
         """The smallest factor that is sensible: whole numbers of cells can fall along all axes alike."""
         if not self.counts:
-            return 1 / 64
+            return max(1 / 64, next(iter(self.values.values()))[0] / self.multiple if self.multiple else 0.0)
         largest = min(max(values) for values in self.values.values())
         smallest = min((value for values in self.values.values() for value in values if value > 1), default=largest)
         return min(1.0, max(FEWEST_CELLS / largest, 1 / smallest))
@@ -133,16 +134,25 @@ def spacing(found, dimension):
                 common_length(sides + lengths_in(found, own[0])))
 
 
+def order_in_time(found):
+    """Of the error that the integrator of a scene promises."""
+    weights = {"theta": "Time/Theta", "newmark": "Time/Gamma"}  # of second order with one half only
+    weight = found.get(weights.get(found.get("Time/Integrator")), "0.5")
+    return 1.0 if found["Scheme"] == "time_splitting" or float(weight) != 0.5 else 2.0
+
+
 def knobs_of(found):
     """All that the parameters of a scene have, by name."""
     dimension = int(found["Dimension"])
+    if float(found.get("Time/Maximum steps", ANY_STEPS)) < ANY_STEPS:
+        sys.exit("Error: with 'Time/Maximum steps' runs of other steps end at other times. Give 'Time/End' in its place.")
     if found["Scheme"] == "particle":
         print("note: sub-steps of particles follow from their spacing, which is refined; where 'Time/Step' bounds them, that is not "
               "looked at", file=sys.stderr)
         return [spacing(found, dimension)]
     result = []
     if found.get("Time/Integrator") != "static":
-        result.append(Knob("time step", {"Time/Step": numbers(found["Time/Step"])}, 2.0, 1.0, False,
+        result.append(Knob("time step", {"Time/Step": numbers(found["Time/Step"])}, order_in_time(found), 1.0, False,
                            longest=float(found.get("Output/Interval", 0))))
     planes = [key for key in ("Domain/Planes x", "Domain/Planes y", "Domain/Planes z") if found.get(key)]
     if planes:

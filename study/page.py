@@ -14,6 +14,11 @@ figcaption { font-size: 13px; color: #555; }
 """
 
 
+def plain(text):
+    """For Matplotlib, which takes what stands between two $ for a formula."""
+    return text.replace("$", r"\$")
+
+
 def inline(text):
     """Bold and code of Markdown."""
     text = html.escape(text, quote=False)
@@ -22,7 +27,7 @@ def inline(text):
 
 
 def cells(line, tag):
-    parts = line.strip().strip("|").split(" | ")
+    parts = (part.replace(r"\|", "|") for part in line.strip().strip("|").split(" | "))
     return "<tr>" + "".join(f"<{tag}>{inline(part.strip())}</{tag}>" for part in parts) + "</tr>"
 
 

@@ -3,11 +3,15 @@
 import os
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 from study import quantities, runs
-from study.columns import NotEvaluated, read
+from study.columns import NotEvaluated, column, phases, read
 from study.description import AXES, Quantity
+
+
+LEAST_COST = 1e-3  # core seconds; less cannot be told
 
 
 class Refused(Exception):
@@ -43,21 +47,48 @@ def quantity_of(name, measure, columns=()):
                     reference_factor=1.0, scale=0.0, **texts)
 
 
+@dataclass
+class Destination:
+    """Where the runs go that have all outputs of the scene, one in the place of the other."""
+    folder: str
+    written: dict  # {"Section/Key": value} of outputs, which coarse runs do without
+    overwrite: bool  # may they replace what the user has in the folder?
+
+
+def seconds_of_outputs(result, folder):
+    """Core seconds that a run in a folder has spent on outputs, which settings have little to do with: of the clock's, which
+    the file `timing` has, the share that the run has had of a processor."""
+    wall = result.get("wall seconds", 0.0)
+    share = min(1.0, result["core seconds"] / wall) if wall > 0 else 1.0
+    return share * phases(os.path.join(folder, "timing")).get("output", 0.0)
+
+
 class Pilot:
     """Makes runs of a scene and remembers what they gave. Folders of coarse runs are in `folder`. `choose`: the quantity
     that is to be accurate, by the columns of the first run."""
 
-    def __init__(self, program, study, choose, folder, deadline):
+    def __init__(self, program, study, choose, folder, deadline, destination=None, jobs=1):
         self.program, self.study, self.choose, self.quantity = program, study, choose, None
-        self.folder, self.deadline = folder, deadline
-        self.values, self.costs, self.failures = {}, {}, {}
-        self.have_outputs = set()  # settings whose cost is that of a run with outputs
-        self.made = []  # settings run here, in the place of those that are taken from earlier studies
+        self.folder, self.deadline, self.destination, self.jobs = folder, deadline, destination, jobs
+        self.values, self.costs, self.failures = {}, {}, {}  # costs: core seconds without those of the start and of outputs
+        self.paces = {}  # (seconds of the clock for the whole run, the same for each core second) of settings
+        self.made = []  # (setting, core seconds, seconds of the clock) of runs made here, not taken from earlier studies
+        self.too_coarse = {}  # {number of a knob: largest factor, below those of runs that succeed, with which one has failed}
+        self.under_way = None  # the setting of a run with outputs
+        self.has_outputs = False  # has there been one?
 
-    def cost_of_others(self, setting):
-        """Core seconds and number of all runs made but that of a setting."""
-        others = [each for each in self.made if each != setting]
-        return sum(self.costs[each] for each in others), len(others)
+    def spent(self, setting):
+        """(Core seconds without the start, seconds of the clock) of the last run made of a setting, and of all others, and
+        their number."""
+        last = max(k for k, (each, *_) in enumerate(self.made) if each == setting)
+        others = [each for k, each in enumerate(self.made) if k != last]
+        return self.made[last][1:], (sum(core for _, core, _ in others), sum(wall for *_, wall in others)), len(others)
+
+    def seconds(self, setting, growth):
+        """Of the clock, that a run will take that costs so many times as much as a setting: what its start and its outputs
+        have taken does not grow."""
+        whole, pace = self.paces[setting]
+        return whole + (growth - 1) * self.costs[setting] * pace
 
     def limit(self):
         """Seconds that a run may take; 0: as many as it likes."""
@@ -65,40 +96,63 @@ class Pilot:
 
     def run(self, setting):
         """Values of the quantity with a setting; None if the run has failed."""
-        if setting not in self.costs:
-            folder = os.path.join(self.folder, f"{len(self.costs)}")
-            self.made.append(setting)
-            self.take(setting, runs.once(self.program, self.study, setting, folder, self.limit()),
-                      os.path.join(folder, "run"))
+        self.run_all([setting])
         return self.values.get(setting)
 
-    def run_with_outputs(self, setting, words, folder):
+    def run_all(self, settings):
+        """Make the runs of settings that are not there yet, as many at the same time as there are jobs."""
+        missing = [setting for setting in dict.fromkeys(settings) if setting not in self.costs]
+        folders = [os.path.join(self.folder, f"{len(self.made) + number}") for number in range(len(missing))]
+        pool = ThreadPoolExecutor(self.jobs)
+        try:
+            results = list(pool.map(lambda *of_run: runs.once(self.program, self.study, *of_run, self.limit()), missing, folders))
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)  # a user who stops does not wait for runs
+        for setting, folder, result in zip(missing, folders, results):
+            self.made.append((setting, result["core seconds"], result["elapsed"]))
+            self.take(setting, result, os.path.join(folder, "run"))
+
+    def run_with_outputs(self, setting):
         """The same with all outputs that the scene asks for, in the user's folder; None if the run has failed."""
-        self.have_outputs.add(setting)
-        words = words + runs.assignments(setting.settings(self.study))
-        self.made.append(setting)
+        folder = self.destination.folder
+        words = [self.program, self.study.file, "--output", folder]
+        words += ["--overwrite"] * (self.destination.overwrite or self.has_outputs)
+        words += runs.assignments({**self.destination.written, **setting.settings(self.study)})
+        self.has_outputs, self.under_way = True, setting
         with open(os.path.join(self.folder, "printed"), "w+") as printed:
             result = runs.execute(words, self.limit(), printed)
-        self.take(setting, {**result, **runs.summary_of(os.path.join(folder, "summary.json"))}, folder)
+        self.under_way = None
+        result.update(runs.summary_of(os.path.join(folder, "summary.json")))
+        self.made.append((setting, result["core seconds"], result["elapsed"]))
+        self.take(setting, result, folder)
         return self.values.get(setting)
 
     def take(self, setting, result, folder):
         """Note what a run in a folder has given."""
         if result["stopped"]:
             raise Refused("the time allowed is over")
-        self.costs[setting] = result["core seconds"]
+        self.costs[setting] = max(result["core seconds"] - seconds_of_outputs(result, folder), LEAST_COST)
+        wall = result.get("wall seconds", result["core seconds"])
+        self.paces[setting] = result.get("elapsed", wall) / result.get("repetitions", 1), wall / max(result["core seconds"], LEAST_COST)
         said = result["failure"]
         print(f"  {setting.name(self.study)}: {said or format(result['core seconds'], '.3g') + ' core s'}", file=sys.stderr,
               flush=True)
         if said:
             self.failures[setting] = said
+            self.values.pop(setting, None)
             return
         try:
             columns = read(os.path.join(folder, "statistics"))
             self.quantity = self.quantity or self.choose(columns)
-            self.values[setting] = quantities.evaluate(self.quantity, columns)
-        except NotEvaluated as reason:
+            for name in self.quantity.columns:
+                column(columns, name)
+        except NotEvaluated as reason:  # no setting changes that
             raise Refused(str(reason)) from reason
+        try:
+            self.values[setting] = quantities.evaluate(self.quantity, columns)
+        except NotEvaluated as reason:  # such as no whole period, of which a finer run may have one
+            self.failures[setting] = str(reason)
+            print(f"  {reason}", file=sys.stderr, flush=True)
 
     def forget(self, setting):
         """That a run has been taken which does not have the quantity."""

@@ -9,6 +9,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot, ticker  # noqa: E402
 
 from study.cases import variant, variant_name  # noqa: E402
+from study.page import plain  # noqa: E402
 
 STYLES = ("-", "--", ":", "-.")
 MARKERS = "os^Dvp*Xh<>"
@@ -49,7 +50,7 @@ def draw_curves(axes, found, result):
         style = STYLES[groups.index(others) % len(STYLES)] if several else "-"
         axes.plot([found.cost(case) for case in cases], [max(result.errors[case], 1e-16) for case in cases], style,
                   color=f"C{colour % 10}", marker=MARKERS[groups.index(others) % len(MARKERS)], markersize=4.5,
-                  linewidth=1.1, label=label(found, key, others, several))
+                  linewidth=1.1, label=plain(label(found, key, others, several)))
 
 
 def draw_front(axes, found, result):
@@ -109,8 +110,8 @@ def work_precision(found, result, path):
     figure, axes = pyplot.subplots(figsize=(8.6, 4.6))
     draw(axes, found, result)
     axes.set_xlabel(cost_label(found))
-    axes.set_ylabel(f"relative error of {result.quantity.name}")
-    axes.set_title(found.study.title, fontsize=11)
+    axes.set_ylabel(plain(f"relative error of {result.quantity.name}"))
+    axes.set_title(plain(found.study.title), fontsize=11)
     axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
     save(figure, path)
 
@@ -129,10 +130,10 @@ def side_by_side(several, path):
     for axes, found in zip(panels[0], several):
         result = found.quantities[0]
         draw(axes, found, result)
-        axes.set_title("\n".join(textwrap.wrap(found.study.title, 34)), fontsize=10)
+        axes.set_title(plain("\n".join(textwrap.wrap(found.study.title, 34))), fontsize=10)
         axes.set_xlabel(cost_label(found), fontsize=9)
-        axes.set_ylabel(f"relative error of {result.quantity.name}", fontsize=9)
-        axes.text(0.02, 0.02, "\n".join(missing_runs(found, result)), transform=axes.transAxes, fontsize=8, color="C3")
+        axes.set_ylabel(plain(f"relative error of {result.quantity.name}"), fontsize=9)
+        axes.text(0.02, 0.02, plain("\n".join(missing_runs(found, result))), transform=axes.transAxes, fontsize=8, color="C3")
         for line, name in zip(*axes.get_legend_handles_labels()):
             legend.setdefault(name, line)
     figure.tight_layout(rect=(0, 0.1, 1, 1))

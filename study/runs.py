@@ -129,7 +129,8 @@ def execute(words, limit, printed):
     printed.seek(0)
     failure = "" if process.returncode == 0 else message_of(printed.read())
     return {"failure": f"took longer than {limit:.3g} s" if stopped else failure, "stopped": stopped,
-            "core seconds": seconds, "wall seconds": time.monotonic() - begin, "exit code": process.returncode}
+            "core seconds": seconds, "wall seconds": time.monotonic() - begin, "elapsed": time.monotonic() - begin,
+            "exit code": process.returncode}
 
 
 def once(program, study, case, folder, limit):

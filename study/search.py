@@ -5,11 +5,15 @@ import sys
 import time
 
 from study.campaign import readable
+from study.knobs import CLOSE
 from study.level import COARSER, Level, NoCoarserRun, coarser_neighbour
 from study.pilot import Refused, Setting
 from study.tables import percent
 
-FIRST = 0.25  # factor of the first settings, of those of the scene
+FIRST, LAST_FIRST = 0.25, 4.0  # factors of the first settings, of those of the scene
+SAME = 1e-6  # relative, of factors
+NEAR_ENOUGH = 3.0  # an error, of what is asked for, to begin with
+LITTLE = 0.1  # a part of the error, of what is asked for, that does not matter
 AIM = 0.9  # of the error asked for: the parts are estimates
 CHEAP = 8.0  # the last run, in costs of the one that foretells its error
 LARGEST_JUMP, CAREFUL_JUMP = 8.0, 4.0  # of cost, from one setting to the next; where the error is uncertain
@@ -23,33 +27,37 @@ HOPELESS = 6.0  # refinement of all that matters, without the error falling
 MATTERS = 0.1  # of the error
 
 
-def with_room(knob):
-    """The least factor of which there are coarser ones."""
-    return min(1.0, COARSER * knob.coarsest())
+def with_room(pilot, k, knob):
+    """The least factor of a knob of which there are coarser ones that have not failed."""
+    return COARSER * max(knob.coarsest(), CLOSE * pilot.too_coarse.get(k, 0.0))
 
 
-def known_level(pilot):
-    """Of the dearest of the runs that are there already of which all coarser neighbours are there, too; or None."""
+def known_level(pilot, wanted):
+    """Of the cheapest of the runs that are there already, of which all coarser neighbours are there, too, whose error is near
+    to what is asked for; of the one with the least error if none is; or None."""
     def is_surrounded(setting):
         return all(coarser_neighbour(pilot, setting, k, COARSER) in pilot.values for k in range(len(setting.knobs)))
 
-    surrounded = [setting for setting in pilot.values if is_surrounded(setting)]
-    return Level(pilot, max(surrounded, key=pilot.costs.get)) if surrounded else None
+    levels = [Level(pilot, setting) for setting in sorted(pilot.values, key=pilot.costs.get) if is_surrounded(setting)]
+    near = (level for level in levels if not level.remarks and level.error() <= NEAR_ENOUGH * wanted)
+    return next(near, None) or min(levels, key=Level.error, default=None)
 
 
 def first_level(pilot, all_knobs):
     """Of settings a quarter as fine as the scene, or as fine as needed for the run and its coarser neighbours to succeed."""
-    factor, reason = FIRST, None
-    while factor <= 2:
-        setting = Setting(all_knobs, tuple(knob.nearest(max(factor, with_room(knob))) for knob in all_knobs))
+    factors, reason = [FIRST] * len(all_knobs), None
+    while max(factors) <= LAST_FIRST:
+        setting = Setting(all_knobs, tuple(knob.nearest(max(factor, with_room(pilot, k, knob)))
+                                           for k, (knob, factor) in enumerate(zip(all_knobs, factors))))
         if pilot.run(setting) is not None:
             try:
                 return Level(pilot, setting)
             except NoCoarserRun as missing:
                 reason = str(missing)
+                factors[missing.number] *= 2
         else:
-            reason = "the scene's own settings fail: " + pilot.failures[setting]
-        factor *= 2
+            reason = f"the run with {setting.name(pilot.study)} fails: {pilot.failures[setting]}"
+            factors = [2 * factor for factor in factors]
     raise Refused(reason)
 
 
@@ -57,7 +65,8 @@ def cheapest(level, model, wanted):
     """Factors by a model of a level's error; the finest there are if none are fine enough. Steps are no longer than a run
     with outputs makes them."""
     knobs, factors = level.setting.knobs, level.setting.factors
-    low = [max(with_room(knob), knob.least_with_outputs(), factor / COARSER) for knob, factor in zip(knobs, factors)]
+    low = [max(with_room(level.pilot, k, knob), knob.least_with_outputs(), factor / COARSER)
+           for k, (knob, factor) in enumerate(zip(knobs, factors))]
     for finest in FINEST:
         choices = [knob.choices(least, max(least, factor * finest)) or [knob.nearest(least)]
                    for knob, least, factor in zip(knobs, low, factors)]
@@ -73,8 +82,8 @@ def between(level, factors, jump):
     finest = max(1.0, max(other / own for own, other in zip(level.setting.factors, factors)))
     share = min([1.0] + [math.log(most) / math.log(there) for most, there in ((jump, whole), (FAR, finest)) if there > most])
     return Setting(level.setting.knobs, tuple(
-        knob.nearest(max(own * (other / own) ** share, knob.least_with_outputs()))
-        for knob, own, other in zip(level.setting.knobs, level.setting.factors, factors)))
+        knob.nearest(max(own * (other / own) ** share, knob.least_with_outputs(), with_room(level.pilot, k, knob)))
+        for k, (knob, own, other) in enumerate(zip(level.setting.knobs, level.setting.factors, factors))))
 
 
 def settled(level):
@@ -106,16 +115,17 @@ def next_setting(level, wanted):
 
 
 class Search:
-    """Levels and the settings tried between them. The last setting is accurate enough, and its run, by `run_with_outputs`,
-    is the one that the user gets. Raises Refused."""
+    """Levels and the settings tried between them. The last setting is accurate enough, and its run, with outputs, is the one
+    that the user gets. Raises Refused."""
 
-    def __init__(self, pilot, all_knobs, wanted, run_with_outputs):
-        self.pilot, self.wanted, self.run_with_outputs = pilot, wanted, run_with_outputs
+    def __init__(self, pilot, all_knobs, wanted):
+        self.pilot, self.wanted = pilot, wanted
         self.all_knobs, self.levels = all_knobs, []
+        self.left = []  # settings whose coarser neighbours have failed
         self.setting, self.error = None, math.inf
 
     def run(self):
-        self.levels.append(known_level(self.pilot) or first_level(self.pilot, self.all_knobs))
+        self.levels.append(known_level(self.pilot, self.wanted) or first_level(self.pilot, self.all_knobs))
         self.say()
         while self.error > self.wanted:
             self.refine()
@@ -127,21 +137,50 @@ class Search:
         if setting == level.setting and not is_foretold:
             raise Refused(f"nothing can be refined further: the error is still about {percent(level.error())}")
         self.refuse_what_takes_too_long(setting)
-        if self.run_with_outputs(setting) is None:
-            raise Refused(f"the run with {setting.name(self.pilot.study)} fails: {self.pilot.failures[setting]}")
-        self.setting = setting
-        error = level.confirmed_error(setting) if is_foretold else None
-        if error is not None and error <= self.wanted:
-            self.error = error
+        if self.pilot.run_with_outputs(setting) is None:
+            self.turn_back(setting)
             return
-        self.levels.append(Level(self.pilot, setting, level))
+        self.setting = setting
+        if is_foretold and self.is_accurate(level, lambda: level.confirmed_error(setting)):
+            return
+        try:
+            self.levels.append(Level(self.pilot, setting, level, LITTLE * self.wanted))
+        except NoCoarserRun:
+            if setting in self.left:
+                raise
+            self.left.append(setting)  # the next one is finer in what fails
+            return
         self.say()
-        if self.levels[-1].error() <= self.wanted and not self.levels[-1].remarks:
-            self.error = self.levels[-1].error()
+        late = self.levels[-1]
+        if self.is_accurate(late, lambda: math.inf if late.remarks else late.error()):
             return
         if len(self.levels) > LEVELS:
             raise Refused(f"after {LEVELS} refinements the error is still about {percent(self.levels[-1].error())}")
         self.refuse_what_does_not_converge()
+
+    def is_accurate(self, level, error_by):
+        """Is an error by a level, which may be None if it is not known, as small as wanted, also once all of the level's parts
+        are measured? Then it is that of the search."""
+        error = error_by()
+        if error is not None and error <= self.wanted and not level.is_complete():
+            try:
+                level.complete()
+            except NoCoarserRun:
+                return False
+            error = error_by()
+        if error is None or error > self.wanted:
+            return False
+        self.error = error
+        return True
+
+    def turn_back(self, setting):
+        """From one that fails to those that are nowhere coarser than the last level; Refused if it is not coarser itself."""
+        coarser = [k for k, (factor, own) in enumerate(zip(setting.factors, self.levels[-1].setting.factors))
+                   if factor < own * (1 - SAME) and factor > self.pilot.too_coarse.get(k, 0.0)]
+        if not coarser:
+            raise Refused(f"the run with {setting.name(self.pilot.study)} fails: {self.pilot.failures[setting]}")
+        for k in coarser:
+            self.pilot.too_coarse[k] = setting.factors[k]
 
     def expected_error(self):
         """Of the last setting, with parts that cancel each other; zero where nothing changes anything."""
@@ -172,11 +211,11 @@ class Search:
         if not self.pilot.deadline:
             return
         left, level = self.pilot.deadline - time.monotonic(), self.levels[-1]
-        next_cost = self.pilot.costs[level.setting] * float(level.model.cost(setting.factors))
-        whole, _ = self.cost_of(AIM * self.wanted)
+        following, last = (self.pilot.seconds(level.setting, float(level.model.cost(factors))) for factors in (
+            setting.factors, cheapest(level, level.model, AIM * self.wanted)))
         is_sure = level.orders_are_seen() and not level.remarks
-        if next_cost > left or (is_sure and whole > left):
-            raise Refused(f"it would take about {readable(max(whole, next_cost))}, but {readable(max(left, 0))} of the time "
+        if following > left or (is_sure and last > left):
+            raise Refused(f"it would take about {readable(max(following, last))}, but {readable(max(left, 0))} of the time "
                           f"allowed are left; so far the error is about {percent(level.error())}")
 
     def refuse_what_does_not_converge(self):

@@ -10,6 +10,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot, ticker  # noqa: E402
 
 from study import page, tables  # noqa: E402
+from study.page import plain  # noqa: E402
 from study.stability import VERDICTS, verdict  # noqa: E402
 
 LOOKS = {"stable": ("o", "C2"), "undecided": ("s", "C7"), "growing": ("^", "C1"), "failed": ("x", "C3")}
@@ -52,21 +53,22 @@ def draw(found, path):
             foretold = sorted((number, value) for number, line in columns for other, value in found.foretold if other == line)
             place.plot(*zip(*foretold) if foretold else ([], []), "--", color="C0", linewidth=1, marker=".", markersize=3,
                        label="boundary by linear theory")
-        place.set_title(", ".join(study.variations[k].names[position] for k, position in fixed) or study.title, fontsize=10)
+        title = ", ".join(study.variations[k].names[position] for k, position in fixed) or study.title
+        place.set_title(plain(title), fontsize=10)
         place.set_xscale("log")
         place.set_yscale("log")
         place.grid(alpha=0.3, which="both", linewidth=0.4)
         ranges = [k for k in study.ranges() if k != found.axis]
         if ranges:
             across = study.variations[ranges[-1]]
-            place.set_xticks(across.lengths, across.names, fontsize=8)
+            place.set_xticks(across.lengths, list(map(plain, across.names)), fontsize=8)
             place.xaxis.set_minor_locator(ticker.NullLocator())
-            place.set_xlabel(label(across), fontsize=8)
+            place.set_xlabel(plain(label(across)), fontsize=8)
         else:
             place.set_xticks([])
-    axes[0][0].set_ylabel(label(study.variations[found.axis]), fontsize=8)
+    axes[0][0].set_ylabel(plain(label(study.variations[found.axis])), fontsize=8)
     handles = axes[0][0].get_legend_handles_labels()
-    figure.suptitle(study.title, fontsize=11)
+    figure.suptitle(plain(study.title), fontsize=11)
     figure.tight_layout(rect=(0, 0.07, 1, 1))
     figure.legend(*handles, loc="lower center", ncol=6, fontsize=9)
     figure.savefig(path, dpi=100)

@@ -17,7 +17,7 @@ LEAST_SECONDS = 0.001  # of a phase that is listed
 
 
 def row(cells):
-    return "| " + " | ".join(map(str, cells)) + " |"
+    return "| " + " | ".join(str(cell).replace("|", r"\|") for cell in cells) + " |"
 
 
 def table(head, rows):
