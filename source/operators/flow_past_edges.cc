@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace undine
 {
@@ -63,23 +65,20 @@ namespace undine
       {
       }
 
-      /// Past the edge that narrows it most, if there are edges on both sides.
+      /// What flows past an edge in the cell on one side, below (0) or above (1), of a piece of
+      /// `face`, which may be an image beyond a periodic side.
       FlowPastEdge<dim>
-      of(const int piece) const
+      beside(const GridIndex<dim> &face, const int piece, const unsigned int half) const
       {
-        FlowPastEdge<dim> result;
-        for (const unsigned int half : {0, 1})
-          if (const auto wall = wall_in_front(piece, half); wall.has_edge)
-            if (const auto found = past(piece, wall); found.factor > result.factor)
-              result = found;
-        return result;
+        const auto wall = wall_in_front(face, piece, half);
+        return wall.has_edge ? past(face, piece, wall) : FlowPastEdge<dim>();
       }
 
     private:
       double
-      plane(const int piece) const
+      plane(const GridIndex<dim> &face) const
       {
-        return open.faces[axis].all()[piece].place[axis];
+        return cut.block.planes().position(axis, face[axis]);
       }
 
       dealii::Point<dim>
@@ -90,12 +89,12 @@ namespace undine
 
       /// Is it the only piece of its face that bounds the component?
       bool
-      is_alone(const int piece, const unsigned int half) const
+      is_alone(const GridIndex<dim> &face, const int piece, const unsigned int half) const
       {
         int         n         = 0;
         const auto &pieces    = open.pieces[axis];
         const int   component = pieces[piece].components[half];
-        for_each_part(open.faces[axis], open.faces[axis].all()[piece].index, [&](const int part) {
+        for_each_part(open.faces[axis], face, [&](const int part) {
           n += pieces[part].components[half] == component;
         });
         return n == 1;
@@ -103,12 +102,12 @@ namespace undine
 
       /// What faces a piece in the component below (0) or above (1) it.
       WallInFront<dim>
-      wall_in_front(const int piece, const unsigned int half) const
+      wall_in_front(const GridIndex<dim> &face, const int piece, const unsigned int half) const
       {
         WallInFront<dim> result;
         const int        component = open.pieces[axis][piece].components[half];
         const int        of_cut    = component < 0 ? -1 : parts.cut_components[component];
-        if (of_cut < 0 || !is_alone(piece, half))
+        if (of_cut < 0 || !is_alone(face, piece, half))
           return result;
         const int cell = cut.components[of_cut].cell;
         for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
@@ -123,7 +122,7 @@ namespace undine
               centroid += fragment.mean[k] * node(fragment.facet, k);
             result.size += fragment.area_vector.norm();
             result.area += facing;
-            result.volume += facing * std::abs(plane(piece) - centroid[axis]);
+            result.volume += facing * std::abs(plane(face) - centroid[axis]);
             result.moment += facing * centroid;
             if (!result.has_edge)
               find_edge(result, f, cell);
@@ -176,7 +175,7 @@ namespace undine
       /// velocity says nothing of either), and where facets are so small that those beside the edge
       /// do not tell the velocity of the fluid that is held back.
       FlowPastEdge<dim>
-      past(const int piece, const WallInFront<dim> &wall) const
+      past(const GridIndex<dim> &face, const int piece, const WallInFront<dim> &wall) const
       {
         FlowPastEdge<dim> result;
         const auto       &shape  = open.faces[axis].all()[piece];
@@ -195,6 +194,7 @@ namespace undine
           result.direction = d;
           result.shift[d]  = sign * (length - passed) / 2;
           auto held        = shape.place; // the centroid of what does not pass
+          held[axis]       = plane(face);
           held[d] -= sign * passed / 2;
           result.weights = weights_in_simplex(wall.simplex, held);
         };
@@ -246,27 +246,82 @@ namespace undine
     };
 
 
+    /// Call `action(number)` for all that is to be known of one, each as a reference.
+    template <int dim, class Action>
+    void
+    for_each_number(FlowPastEdge<dim> &one, const Action &action)
+    {
+      action(one.factor);
+      action(one.direction);
+      for (unsigned int d = 0; d < dim; ++d)
+        action(one.shift[d]);
+      for (unsigned int k = 0; k <= dim; ++k)
+        {
+          action(one.nodes[k]);
+          action(one.weights[k]);
+        }
+    }
+
+
+    /// What flows past edges in the cells below a periodic side, of which the ranks that own the
+    /// faces on it know nothing; for these faces, each with a single piece. Collective.
+    template <int dim>
+    std::vector<std::pair<GridIndex<dim>, FlowPastEdge<dim>>>
+    below_periodic_side(const MacGrid<dim>       &grid,
+                        const CutCells<dim>      &cut,
+                        const CutTopology<dim>   &parts,
+                        const PiecesAtEdges<dim> &at_edges,
+                        const unsigned int        axis)
+    {
+      std::vector<double> numbers;
+      for (const auto &cell : cut.cells)
+        if (const auto image = moved<dim>(cell.index, axis, 1);
+            grid.cells()->owned().contains(cell.index) &&
+            image[axis] == static_cast<int>(grid.cells_along()[axis]))
+          for_each_part(parts.open->faces[axis], image, [&](const int part) {
+            auto past = at_edges.beside(image, part, 0);
+            if (!(past.factor > 1))
+              return;
+            for (unsigned int d = 0; d < dim; ++d)
+              numbers.push_back(d == axis ? 0 : image[d]);
+            for_each_number(past, [&](const auto &number) { numbers.push_back(number); });
+          });
+      std::vector<std::pair<GridIndex<dim>, FlowPastEdge<dim>>> result;
+      for (const auto &of_rank : dealii::Utilities::MPI::all_gather(grid.communicator(), numbers))
+        for (std::size_t n = 0; n < of_rank.size();)
+          {
+            auto &[face, past] = result.emplace_back();
+            for (unsigned int d = 0; d < dim; ++d)
+              face[d] = of_rank[n++];
+            for_each_number(past, [&](auto &number) { number = of_rank[n++]; });
+          }
+      return result;
+    }
+
+
     /// Get those of pieces that other ranks own. Collective.
     template <int dim>
     void
     exchange(std::vector<FlowPastEdge<dim>> &all, const SubLattice<dim> &pieces)
     {
-      std::vector<double> values(all.size());
-      const auto          exchange_number = [&](const auto &number) {
-        for (std::size_t k = 0; k < all.size(); ++k)
-          values[k] = number(all[k]);
-        pieces.exchange(values);
-        for (std::size_t k = 0; k < all.size(); ++k)
-          number(all[k]) = values[k];
-      };
-      exchange_number([](auto &one) -> auto & { return one.factor; });
-      exchange_number([](auto &one) -> auto & { return one.direction; });
-      for (unsigned int d = 0; d < dim; ++d)
-        exchange_number([d](auto &one) -> auto & { return one.shift[d]; });
-      for (unsigned int k = 0; k <= dim; ++k)
+      std::vector<std::vector<double>> numbers; // [number][piece]
+      for (std::size_t k = 0; k < all.size(); ++k)
         {
-          exchange_number([k](auto &one) -> auto & { return one.nodes[k]; });
-          exchange_number([k](auto &one) -> auto & { return one.weights[k]; });
+          unsigned int n = 0;
+          for_each_number(all[k], [&](const auto &number) {
+            if (n == numbers.size())
+              numbers.emplace_back(all.size());
+            numbers[n++][k] = number;
+          });
+        }
+      constexpr unsigned int n_numbers = 4 + 3 * dim;
+      numbers.resize(n_numbers); // on ranks without pieces
+      for (auto &values : numbers)
+        pieces.exchange(values);
+      for (std::size_t k = 0; k < all.size(); ++k)
+        {
+          unsigned int n = 0;
+          for_each_number(all[k], [&](auto &number) { number = numbers[n++][k]; });
         }
     }
   } // namespace
@@ -283,13 +338,22 @@ namespace undine
     const auto                    &pieces = parts.open->faces[axis];
     const PiecesAtEdges<dim>       at_edges(grid, cut, parts, placed, axis);
     std::vector<FlowPastEdge<dim>> result(pieces.all().size());
-    unsigned int                   n = 0;
+    const auto                     keep = [&](const int piece, const FlowPastEdge<dim> &found) {
+      if (found.factor > result[piece].factor)
+        result[piece] = found;
+    };
     for (std::size_t k = 0; k < result.size(); ++k)
       if (pieces.owns(k))
-        {
-          result[k] = at_edges.of(k);
-          n += result[k].factor > 1;
-        }
+        for (const unsigned int half : {0, 1})
+          if (const auto &face = pieces.all()[k].index;
+              half == 1 || !grid.periodic(axis) || face[axis] > 0)
+            keep(k, at_edges.beside(face, k, half));
+    if (grid.periodic(axis))
+      for (const auto &[face, found] : below_periodic_side(grid, cut, parts, at_edges, axis))
+        if (grid.faces(axis)->owned().contains(face))
+          for_each_part(pieces, face, [&, &found = found](const int part) { keep(part, found); });
+    const unsigned int n =
+      std::count_if(result.begin(), result.end(), [](const auto &one) { return one.factor > 1; });
     if (dealii::Utilities::MPI::max(n, grid.communicator()) > 0)
       exchange(result, pieces);
     return result;
