@@ -170,10 +170,10 @@ namespace undine
       }
 
       /// Along the direction in which the edge is away from the wall. It counts less where what is
-      /// free of the piece is narrower than what a stream widens by (it has no room there, and
-      /// nothing jumps as an edge comes into a cell), where it is free on both sides of a wall (one
-      /// velocity says nothing of either), and where facets are so small that those beside the edge
-      /// do not tell the velocity of the fluid that is held back.
+      /// free of the piece is narrower than the wall is away (the flow then spreads over all of the
+      /// piece, and nothing jumps as an edge comes into a cell), where it is free on both sides of
+      /// a wall (one velocity says nothing of either), and where facets are so small that those
+      /// beside the edge do not tell the velocity of the fluid that is held back.
       FlowPastEdge<dim>
       past(const GridIndex<dim> &face, const int piece, const WallInFront<dim> &wall) const
       {
@@ -185,7 +185,7 @@ namespace undine
         const double       across =
           grid.face_area(axis, shape.index) / grid.cell_width(d, shape.index[d]);
         const double length = shape.measure / across, behind = wall.area / across;
-        const double free = length - behind, spread = widening * wall.volume / wall.area;
+        const double free = length - behind, distance = wall.volume / wall.area;
         if (!(free > negligible * length) || !(offset.norm() > 0))
           return result;
         const double sign       = offset[d] > 0 ? -1 : 1;
@@ -198,12 +198,13 @@ namespace undine
           held[d] -= sign * passed / 2;
           result.weights = weights_in_simplex(wall.simplex, held);
         };
-        const double passed = std::max(free + std::min(behind, spread), length / most_factor);
-        result.nodes        = wall.simplex;
+        const double passed =
+          std::max(free + std::min(behind, widening * distance), length / most_factor);
+        result.nodes = wall.simplex;
         shape_past(passed);
         const double farthest = -*std::min_element(result.weights.begin(), result.weights.end());
         const double counts =
-          std::min(1., free / std::max(spread, free)) *
+          std::min(1., free / std::max(distance, free)) *
           std::min(1., 2 * std::abs(offset[d]) / free) *
           std::clamp(
             (wall.area / wall.size - least_facing) / (most_facing - least_facing), 0., 1.) *

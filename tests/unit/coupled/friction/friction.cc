@@ -144,6 +144,50 @@ TEST_CASE("Friction leaves a linear flow alone that bodies move along with", "[f
 }
 
 
+TEST_CASE("A creeping flow does not lift a plate, wherever planes lie beside its ends",
+          "[friction]")
+{
+  // Forwards and backwards it is the same flow: there is no lift. One velocity for what flows past
+  // an edge and what is held back in front of the wall would lift it by .15 N/m.
+  constexpr double h = .025;
+  for (const double beyond_end : {.04, .96})
+    for (const double beside : {.1, .25, .5}) // planes from end and side, in cells
+      {
+        const auto lower = [&](const double place, const double share) {
+          const double cells = place / h + share;
+          return h * (cells - std::round(cells));
+        };
+        const double  x = lower(.7, beyond_end), y = lower(.26, -beside);
+        CoupledRun<2> run(
+          steps_of(.1) +
+          section("Domain",
+                  "set Lower corner = " + number(x) + "," + number(y) + "\nset Upper corner = " +
+                    number(x + 1.2) + "," + number(y + .4) + "\nset Cells = 48, 16\n") +
+          section("Fluid",
+                  "set Density = 1\n" +
+                    section("Boundaries",
+                            boundary("inlet",
+                                     "left",
+                                     "inflow",
+                                     "set Velocity = 25 * (y - " + number(y) + ") * (" +
+                                       number(y + .4) + " - y); 0") +
+                              boundary("outlet", "right", "outflow") +
+                              boundary("walls", "bottom, top", "no-slip wall"))) +
+          section("Obstacles",
+                  section("plate",
+                          "set Shape = box\nset Lower corner = .4, .21\nset Upper corner = .7, "
+                          ".26\nset Cells = 6, 1")) +
+          section("Effects", viscosity(1)));
+        for (unsigned int n = 0; n < 15; ++n)
+          run.step();
+        INFO(beyond_end << ", " << beside);
+        CHECK(std::abs(run.column("pressure force plate y") +
+                       run.column("viscous force plate y")) <= .05);
+        CHECK(run.column("pressure force plate x") > 5);
+      }
+}
+
+
 TEST_CASE("The flow around a turning disc converges with second order", "[friction]")
 {
   double coarse = 0, fine = 0, largest = 0;
