@@ -19,6 +19,11 @@ namespace undine
     /// which the tip of an elastic flag in a slow stream depends least on where planes lie.
     constexpr double widening = 0.5;
 
+    /// What is free of the piece needs to be this times as wide as the wall is away, or the flow
+    /// spreads over all of the piece. (With half of that forces have a peak where it is half as
+    /// wide.)
+    constexpr double room = 0.75;
+
     /// Walls whose normals have less than the first cosine with that of the piece do not hold fluid
     /// back in front of it, those that have at least the second do so all over.
     constexpr double least_facing = 0.85, most_facing = 0.95;
@@ -170,10 +175,10 @@ namespace undine
       }
 
       /// Along the direction in which the edge is away from the wall. It counts less where what is
-      /// free of the piece is narrower than the wall is away (the flow then spreads over all of the
-      /// piece, and nothing jumps as an edge comes into a cell), where it is free on both sides of
-      /// a wall (one velocity says nothing of either), and where facets are so small that those
-      /// beside the edge do not tell the velocity of the fluid that is held back.
+      /// free of the piece is too narrow (nothing jumps as an edge comes into a cell), where it is
+      /// free on both sides of a wall (one velocity says nothing of either), and where facets are
+      /// so small that those beside the edge do not tell the velocity of the fluid that is held
+      /// back.
       FlowPastEdge<dim>
       past(const GridIndex<dim> &face, const int piece, const WallInFront<dim> &wall) const
       {
@@ -204,8 +209,7 @@ namespace undine
         shape_past(passed);
         const double farthest = -*std::min_element(result.weights.begin(), result.weights.end());
         const double counts =
-          std::min(1., free / std::max(distance, free)) *
-          std::min(1., 2 * std::abs(offset[d]) / free) *
+          std::min(1., free / (room * distance)) * std::min(1., 2 * std::abs(offset[d]) / free) *
           std::clamp(
             (wall.area / wall.size - least_facing) / (most_facing - least_facing), 0., 1.) *
           std::clamp(2 - farthest / reach, 0., 1.);
