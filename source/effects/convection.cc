@@ -2,10 +2,12 @@
 #include <undine/effects/effect.h>
 #include <undine/effects/transport_form.h>
 #include <undine/fluid/advection/advection.h>
+#include <undine/fluid/convection/short_waves.h>
 #include <undine/fluid/implicit_momentum.h>
 #include <undine/fluid/pressure/projection.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,14 @@ namespace undine
         "the paths of the fluid, by 'Method', which smooths such layers. 'automatic': 'flux' with "
         "the effect viscosity, if no 'Method' is given and there is no vorticity confinement, else "
         "'along paths'.");
+      options.add(
+        "Short waves",
+        short_waves,
+        "",
+        Allowed::one_of({"damped", "kept"}),
+        "In flux form, central fluxes carry waves shorter than four cells upstream, where they "
+        "stay and disturb what sheds them. 'damped': these, and no longer ones, lose as much as by "
+        "upwind fluxes of third order. 'kept': the flux form takes no energy of any.");
       method = options.template choose<Advection<dim>>(
         "Method", "cubic", "How the velocity is advected along paths.");
     }
@@ -135,10 +145,13 @@ namespace undine
     void
     diffuse(FluidStage<dim> &step) const override
     {
-      if (!form.is_flux() || step.viscosity > 0)
+      if (!form.is_flux())
         return;
       const auto timed = step.timing.section(this->name);
-      momentum.solve(step, this->name);
+      if (short_waves == "damped")
+        damp_short_waves(step.model, step.carrying->carrying_flow(), step.dt, step.state.velocity);
+      if (step.viscosity == 0)
+        momentum.solve(step, this->name);
     }
 
     std::size_t
@@ -213,6 +226,7 @@ namespace undine
     }
 
     TransportForm                            form;
+    std::string                              short_waves = "damped";
     std::unique_ptr<Advection<dim>>          method;
     mutable ImplicitMomentum<dim>            momentum;   ///< a cache
     mutable std::unique_ptr<Projection<dim>> projection; ///< the same, for surfaces that move

@@ -138,6 +138,14 @@ namespace undine
 
 
   template <int dim>
+  double
+  Effect<dim>::power_of_sides(const FluidModel<dim> &, const FluidState<dim> &, double) const
+  {
+    return 0;
+  }
+
+
+  template <int dim>
   void
   Effect<dim>::measure(Scales &, const FluidState<dim> &) const
   {

@@ -93,6 +93,14 @@ namespace undine
                            viscous_forces(model.boundaries(), state, dynamic_viscosity, time));
     }
 
+    double
+    power_of_sides(const FluidModel<dim> &model,
+                   const FluidState<dim> &state,
+                   const double           time) const override
+    {
+      return viscous_power(model.boundaries(), state, dynamic_viscosity, time);
+    }
+
     void
     measure(typename Effect<dim>::Scales &scales, const FluidState<dim> &) const override
     {

@@ -145,6 +145,10 @@ namespace undine
     virtual Columns
     columns(const FluidModel<dim> &model, const FluidState<dim> &state, double time) const;
 
+    /// What sides of the domain that move do to the fluid by the effect [W]. Collective.
+    virtual double
+    power_of_sides(const FluidModel<dim> &model, const FluidState<dim> &state, double time) const;
+
     /// Sizes of which dimensionless numbers are made; zero: unknown.
     struct Scales
     {

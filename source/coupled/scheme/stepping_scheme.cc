@@ -252,7 +252,8 @@ namespace undine
           judge_error(state, saved, report);
           check_passages(saved, state, report.dt);
           if (steadiness)
-            report.steady = steadiness->observe(state, state.clock.time + report.dt);
+            report.steady =
+              steadiness->observe(state, report.columns, state.clock.time + report.dt);
           if (report.halvings > 0 || (report.is_by_fallback && report.cuts > 0))
             state.clock.limit.accept_cut(report.dt);
           else

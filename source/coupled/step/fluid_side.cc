@@ -308,12 +308,7 @@ namespace undine
     if (account)
       {
         account->add_power((forced - before) / fluid->dt);
-        // In flux form diffusion also takes what leaves through openings, which finish() counts.
-        const double left =
-          fluid->carrying ? fluid->dt * kinetic_energy_outflow(model, velocity) : 0.;
-        account->add_power(
-          WorkOnFluid<dim>(models, cut.get())
-            .power_of_walls(*fluid, kinetic_energy(model, velocity) - forced + left));
+        account->add_power(WorkOnFluid<dim>(models, cut.get()).friction_of_obstacles(*fluid));
       }
     return fluid;
   }
@@ -329,8 +324,13 @@ namespace undine
     budget.end_fluid(state.fluid.velocity,
                      fluid.by_contact ? &*fluid.by_contact : nullptr,
                      fluid.advected_from_begin());
-    if (fluid.stage.is_last && report.account && is_carried(models))
-      report.account->add_power(-kinetic_energy_outflow(model, state.fluid.velocity));
+    if (fluid.stage.is_last && report.account)
+      {
+        if (is_carried(models))
+          report.account->add_power(-kinetic_energy_outflow(model, state.fluid.velocity));
+        for (const auto &effect : models.effects)
+          report.account->add_power(effect->power_of_sides(model, state.fluid, fluid.end));
+      }
     Vectors pressures; // those that have accelerated the fluid, before friction corrects them
     if (state.impulses)
       {

@@ -30,28 +30,16 @@ namespace undine
   }
 
 
-  /// What walls at rest seem to give does not count, either, since
-  /// bodies and pressures have yet to act on that velocity.
   template <int dim>
   double
-  WorkOnFluid<dim>::power_of_walls(const FluidStage<dim> &fluid, const double gain) const
+  WorkOnFluid<dim>::friction_of_obstacles(const FluidStage<dim> &fluid) const
   {
-    const auto &boundaries = model.boundaries().all();
-    const bool  walls_move =
-      std::any_of(boundaries.begin(), boundaries.end(), [](const auto &boundary) {
-        return boundary.kind == BoundaryKind::moving_wall;
-      });
-    const auto of_nodes = [&](const std::size_t begin, const std::size_t end) {
-      double power = 0;
-      if (fluid.friction && cut)
-        for (std::size_t node = begin; node < end; ++node)
-          power -= fluid.friction->on_nodes[node] * fluid.wall_velocities[node];
-      return power;
-    };
-    const std::size_t n_bodies = models.surface ? models.surface->n_body_nodes() : 0;
-    if (walls_move)
-      return std::max(0., gain / fluid.dt - of_nodes(0, n_bodies));
-    return fluid.friction && cut ? of_nodes(n_bodies, fluid.friction->on_nodes.size()) : 0;
+    double power = 0;
+    if (fluid.friction && cut)
+      for (std::size_t node = models.surface->n_body_nodes(); node < fluid.wall_velocities.size();
+           ++node)
+        power -= fluid.friction->on_nodes[node] * fluid.wall_velocities[node];
+    return power;
   }
 
 

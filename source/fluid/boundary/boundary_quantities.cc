@@ -86,6 +86,58 @@ namespace undine
     }
 
 
+    /// Friction along an axis on a part of a side.
+    template <int dim>
+    struct WallFriction
+    {
+      const Boundary<dim> &boundary;
+      unsigned int         axis;
+      double               force;    ///< on the side [N]
+      double               velocity; ///< of the side [m/s]
+    };
+
+    /// action(WallFriction) for what this rank has of sides whose velocity along them is
+    /// prescribed.
+    template <int dim, class Action>
+    void
+    for_each_friction(const BoundaryMap<dim> &boundaries,
+                      const FluidState<dim>  &state,
+                      const double            dynamic_viscosity,
+                      const double            time,
+                      const Action           &action)
+    {
+      const auto &grid = boundaries.grid();
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        for_each_next_to_side(
+          grid, *grid.faces(axis), [&](const Side side, const GridIndex<dim> &point) {
+            if (side.axis == axis)
+              return;
+            const auto &lattice = *grid.faces(axis);
+            double      area    = 1;
+            for (unsigned int d = 0; d < dim; ++d)
+              if (d != side.axis)
+                area *= d == axis ? grid.dual_width(d, point[d]) : grid.cell_width(d, point[d]);
+            const auto on_wall = moved<dim>(point, side.axis, side.sign());
+            const auto wall_at = lattice.point(on_wall);
+            const auto nearest = nearest_to_wall(state.velocity[axis], point, side, wall_at);
+            const auto add     = [&](const Boundary<dim>  &boundary,
+                                 const double          fraction,
+                                 const GridIndex<dim> &cell) {
+              if (!boundary.prescribes_tangential_velocity() || !nearest)
+                return;
+              const double wall = boundary.velocity_along(axis, side.axis, wall_at, time);
+              const double open = open_share(grid, state.velocity[0].topology(), side, cell);
+              action(WallFriction<dim>{boundary,
+                                       axis,
+                                       dynamic_viscosity * (nearest->velocity - wall) /
+                                         nearest->distance * area * fraction * open,
+                                       wall});
+            };
+            for_each_boundary_around(boundaries, lattice, side, on_wall, add);
+          });
+    }
+
+
     template <int dim>
     std::vector<dealii::Tensor<1, dim>>
     sum_over_ranks(std::vector<dealii::Tensor<1, dim>> forces, const MPI_Comm communicator)
@@ -210,37 +262,28 @@ namespace undine
                  const double            dynamic_viscosity,
                  const double            time)
   {
-    const auto                         &grid = boundaries.grid();
     std::vector<dealii::Tensor<1, dim>> forces(boundaries.all().size());
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      for_each_next_to_side(
-        grid, *grid.faces(axis), [&](const Side side, const GridIndex<dim> &point) {
-          if (side.axis == axis)
-            return;
-          const auto &lattice = *grid.faces(axis);
-          double      area    = 1;
-          for (unsigned int d = 0; d < dim; ++d)
-            if (d != side.axis)
-              area *= d == axis ? grid.dual_width(d, point[d]) : grid.cell_width(d, point[d]);
-          const auto on_wall = moved<dim>(point, side.axis, side.sign());
-          const auto wall_at = lattice.point(on_wall);
-          const auto nearest = nearest_to_wall(state.velocity[axis], point, side, wall_at);
-          for_each_boundary_around(
-            boundaries,
-            lattice,
-            side,
-            on_wall,
-            [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &cell) {
-              if (!boundary.prescribes_tangential_velocity() || !nearest)
-                return;
-              const double slip =
-                nearest->velocity - boundary.velocity_along(axis, side.axis, wall_at, time);
-              forces[&boundary - boundaries.all().data()][axis] +=
-                dynamic_viscosity * slip / nearest->distance * area * fraction *
-                open_share(grid, state.velocity[0].topology(), side, cell);
-            });
-        });
-    return sum_over_ranks(forces, grid.communicator());
+    for_each_friction(
+      boundaries, state, dynamic_viscosity, time, [&](const WallFriction<dim> &friction) {
+        forces[&friction.boundary - boundaries.all().data()][friction.axis] += friction.force;
+      });
+    return sum_over_ranks(forces, boundaries.grid().communicator());
+  }
+
+
+  template <int dim>
+  double
+  viscous_power(const BoundaryMap<dim> &boundaries,
+                const FluidState<dim>  &state,
+                const double            dynamic_viscosity,
+                const double            time)
+  {
+    double power = 0;
+    for_each_friction(
+      boundaries, state, dynamic_viscosity, time, [&](const WallFriction<dim> &friction) {
+        power -= friction.force * friction.velocity;
+      });
+    return dealii::Utilities::MPI::sum(power, boundaries.grid().communicator());
   }
 
 
@@ -268,6 +311,8 @@ namespace undine
   template std::vector<dealii::Tensor<1, dim>> pressure_forces(                                     \
     const BoundaryMap<dim> &, const FluidState<dim> &, const dealii::Tensor<1, dim> &);             \
   template std::vector<dealii::Tensor<1, dim>> viscous_forces(                                      \
+    const BoundaryMap<dim> &, const FluidState<dim> &, const double, const double);                 \
+  template double viscous_power(                                                                    \
     const BoundaryMap<dim> &, const FluidState<dim> &, const double, const double);                 \
   template Columns force_columns(                                                                   \
     const std::string &, const BoundaryMap<dim> &, const std::vector<dealii::Tensor<1, dim>> &);

@@ -189,6 +189,9 @@ TEST_CASE("a moving lid drags Couette flow and the forces on the walls balance",
   const auto forces = viscous_forces(run.model.boundaries(), run.state, 2., run.time);
   CHECK(forces[0][0] == Approx(-6));
   CHECK(forces[1][0] == Approx(6));
+  for (const auto &effect : run.effects)
+    CHECK(effect->power_of_sides(run.model, run.state, run.time) ==
+          Approx(effect->name == "viscosity" ? 18 : 0));
   unsigned int n_columns = 0;
   for (const auto &effect : run.effects)
     for (const auto &column : effect->columns(run.model, run.state, run.time))

@@ -28,12 +28,9 @@ namespace undine
     /// it.
     WorkOnFluid(const Models<dim> &models, const FluidGeometry<dim> *cut);
 
-    /// Of walls and obstacles that move, by their friction. What obstacles give follows from the
-    /// forces on them. Where walls of the domain move, too, it is taken from `gain`, what diffusion
-    /// has added to the fluid's kinetic energy [J], less what bodies have given of it and lost;
-    /// what has been dissipated does not count. [W]
+    /// What obstacles that move do to the fluid by its friction [W].
     double
-    power_of_walls(const FluidStage<dim> &fluid, double gain) const;
+    friction_of_obstacles(const FluidStage<dim> &fluid) const;
 
     /// Add to `account`, when the last stage is done, the powers at the end of the step of sides,
     /// whose balance of `pressures` that is, and of obstacles by the same `pressure` [Pa], as it

@@ -44,6 +44,15 @@ namespace undine
                  const double            dynamic_viscosity,
                  const double            time);
 
+  /// What sides whose velocity along them is prescribed do to the fluid by its friction: moving
+  /// walls, as a rule, [W].
+  template <int dim>
+  double
+  viscous_power(const BoundaryMap<dim> &boundaries,
+                const FluidState<dim>  &state,
+                const double            dynamic_viscosity,
+                const double            time);
+
   /// The columns "Force on lid, x" and so on [N], `what` being their first words; for walls only.
   template <int dim>
   Columns

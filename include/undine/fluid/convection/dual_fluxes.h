@@ -94,6 +94,13 @@ namespace undine
       return motion ? &motion->start : nullptr;
     }
 
+    /// The flow that carries, with a ghost layer [m/s].
+    const Velocity<dim> &
+    carrying_flow() const
+    {
+      return flow;
+    }
+
     /// The topology of the fluid; nullptr: nothing is cut.
     const FluidTopology<dim> *
     topology() const

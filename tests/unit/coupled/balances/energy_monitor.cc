@@ -293,6 +293,38 @@ TEST_CASE("The energy monitor knows all powers", "[coupled]")
 }
 
 
+TEST_CASE("Walls that move put in the work of their friction, also where they start at once",
+          "[energy][mpi]")
+{
+  // The layer that the lid drags along in the first step is as thin as cells next to it.
+  const std::string grading = "0.5 - 0.5*cos(pi*x)";
+  for (const std::string &body : {"", "knob"})
+    {
+      INFO(body);
+      CoupledRun<2> run(
+        steps_of(0.4) +
+        section("Domain",
+                "set Cells = 16, 16\nset Grading x = " + grading + "\nset Grading y = " + grading) +
+        section("Fluid",
+                section("Boundaries",
+                        boundary("lid", "top", "moving wall", "set Velocity = 1; 0") +
+                          boundary("walls", "left, right, bottom", "no-slip wall"))) +
+        (body.empty()
+           ? ""
+           : section("Obstacles",
+                     section(body, "set Shape = ball\nset Centre = .5, .2\nset Radius = .1"))) +
+        section("Effects", convection() + viscosity(1e-3)));
+      for (unsigned int step = 0; step < 4; ++step)
+        {
+          run.step();
+          CHECK(run.report.cuts == 0);
+          CHECK(run.state.account->power == Approx(-run.column("Viscous force on lid, x")));
+          CHECK(run.report.share_created < 0);
+        }
+    }
+}
+
+
 TEST_CASE("The first step is judged where all work follows from the way of bodies", "[coupled]")
 {
   // A ball that spins and vibrates, in a step that does not resolve it: this integrator gains.
