@@ -91,8 +91,8 @@ namespace undine
       "1",
       Allowed::below(0, 1),
       "The run ends before End once neither the fluid's velocity nor the bodies' displacement "
-      "has changed by more than this part (root mean squares) for the time Steady for. 0: "
-      "it goes on to End.");
+      "(root mean squares), nor the forces of the fluid on bodies and obstacles, have changed by "
+      "more than this part for the time Steady for. 0: it goes on to End.");
     time.add("Steady for",
              steady_for,
              "s",
