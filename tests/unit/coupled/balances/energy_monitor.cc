@@ -306,9 +306,10 @@ TEST_CASE("Walls that move put in the work of their friction, also where they st
         section("Domain",
                 "set Cells = 16, 16\nset Grading x = " + grading + "\nset Grading y = " + grading) +
         section("Fluid",
-                section("Boundaries",
-                        boundary("lid", "top", "moving wall", "set Velocity = 1; 0") +
-                          boundary("walls", "left, right, bottom", "no-slip wall"))) +
+                "set Density = 1\n" +
+                  section("Boundaries",
+                          boundary("lid", "top", "moving wall", "set Velocity = 1; 0") +
+                            boundary("walls", "left, right, bottom", "no-slip wall"))) +
         (body.empty()
            ? ""
            : section("Obstacles",
@@ -319,7 +320,7 @@ TEST_CASE("Walls that move put in the work of their friction, also where they st
           run.step();
           CHECK(run.report.cuts == 0);
           CHECK(run.state.account->power == Approx(-run.column("Viscous force on lid, x")));
-          CHECK(run.report.share_created < 0);
+          CHECK(run.report.share_created <= 0);
         }
     }
 }
