@@ -149,7 +149,7 @@ namespace undine
         return;
       const auto timed = step.timing.section(this->name);
       if (short_waves == "damped")
-        damp_short_waves(step.model, step.carrying->carrying_flow(), step.dt, step.state.velocity);
+        damp_short_waves(step.model, step.carrying->unfitted_flow(), step.dt, step.state.velocity);
       if (step.viscosity == 0)
         momentum.solve(step, this->name);
     }

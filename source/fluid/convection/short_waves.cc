@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/convection/short_waves.h>
-#include <undine/fluid/viscosity/diffusion_problem.h>
 
 #include <algorithm>
 #include <array>
@@ -62,9 +61,8 @@ namespace undine
         const auto &row   = lattice.row(direction);
         const int   last  = lattice.owned().upper[direction];
         const auto  width = [&](const int i) {
-          GridIndex<dim> index{};
-          index[direction] = i;
-          return extent(grid, lattice, direction, index);
+          return direction == lattice.normal_axis() ? grid.dual_width(direction, i)
+                                                     : grid.cell_width(direction, i);
         };
         for (int i = first; i <= last; ++i)
           {

@@ -94,11 +94,12 @@ namespace undine
       return motion ? &motion->start : nullptr;
     }
 
-    /// The flow that carries, with a ghost layer [m/s].
+    /// The flow that carries before it was made to fit the rates of dual volumes, with a ghost
+    /// layer [m/s].
     const Velocity<dim> &
-    carrying_flow() const
+    unfitted_flow() const
     {
-      return flow;
+      return motion ? unfitted : flow;
     }
 
     /// The topology of the fluid; nullptr: nothing is cut.
