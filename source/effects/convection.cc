@@ -40,8 +40,11 @@ namespace undine
         "",
         Allowed::one_of({"damped", "kept"}),
         "In flux form, central fluxes carry waves shorter than four cells upstream, where they "
-        "stay and disturb what sheds them. 'damped': these, and no longer ones, lose as much as by "
-        "upwind fluxes of third order. 'kept': the flux form takes no energy of any.");
+        "stay and disturb what sheds them. 'damped': waves lose as much as by upwind fluxes of "
+        "fifth "
+        "order, in the time in which the flow crosses a cell two thirds of those of two cells, 13 "
+        "% "
+        "of four, 0.3 % of eight. 'kept': the flux form takes no energy of any.");
       method = options.template choose<Advection<dim>>(
         "Method", "cubic", "How the velocity is advected along paths.");
     }

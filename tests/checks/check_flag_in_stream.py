@@ -16,7 +16,7 @@ import sys
 import scene_tools  # which finds the library of studies, too
 from study import references
 
-RIGID = {"drag": (137.00, 0.005), "lift": (11.965, 0.02)}  # forces at 2 s [N/m], relative change allowed
+RIGID = {"drag": (137.54, 0.005), "lift": (11.904, 0.02)}  # forces at 2 s [N/m], relative change allowed
 PUBLISHED = {"drag": 0.01, "lift": 0.15}  # relative errors allowed on this grid
 ELASTIC_DRAG = 31.54  # at 0.5 s [N/m]
 ROUNDING = 1e-9

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace undine
@@ -102,16 +103,17 @@ namespace undine
         return box;
       }
 
-      /// D_f [m/s]; 0 where there is none.
+      /// D_f [m/s]; not a number where there is none.
       void
       set_differences(Field<dim> &result) const
       {
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
         for (const int end : {0, lattice.row(direction).size() - 1})
           {
             auto layer             = lattice.owned();
             layer.lower[direction] = std::max(layer.lower[direction], end);
             layer.upper[direction] = std::min(layer.upper[direction], end + 1);
-            for_each(layer, [&](const GridIndex<dim> &place) { result(place) = 0; });
+            for_each(layer, [&](const GridIndex<dim> &place) { result(place) = none; });
           }
         const auto next = component.stride(direction);
         for_each_row(having_difference(lattice.owned()),
@@ -129,55 +131,48 @@ namespace undine
             for (const int shift : {-1, 0, 1})
               if (divided->kind(moved<dim>(place, direction, shift)) !=
                   SubLattice<dim>::Kind::whole)
-                result(place) = 0;
+                result(place) = none;
           });
       }
 
-      /// w_f K_f D_f dt, w_f being the width of the volume of a place [m^2/s].
+      /// The difference of w_m K_m T_m dt below and above each place, w_m being the width of the
+      /// volume of a middle [m^2/s].
       void
       set_fluxes(const Field<dim> &differences, const double dt, Field<dim> &result) const
       {
-        constexpr double    share = 1. / 16, most = 1. / (32 * dim);
+        constexpr double    share = 1. / 60, most = 1. / (128 * dim);
         const auto          next = differences.stride(direction);
-        std::vector<double> speeds(lattice.owned().upper[0] - lattice.owned().lower[0]);
-        for_each_row(
-          having_difference(lattice.owned()), [&](const GridIndex<dim> &begin, const int n) {
-            set_speeds(begin, n, speeds);
-            const double *d     = differences.data(begin);
-            const double *width = at(widths, begin);
-            double       *flux  = result.data(begin);
-            for (int i = 0; i < n; ++i)
-              {
-                const double beside = (d[i - next] + d[i + next]) / 2;
-                const double damped =
-                  beside * d[i] < 0
-                    ? -std::copysign(std::min(std::abs(beside), std::abs(d[i])), beside)
-                    : 0.;
-                flux[i] =
-                  damped * std::min(most * width[stride_of_weights * i], share * dt * speeds[i]);
-              }
-          });
+        std::vector<double> below(lattice.owned().upper[0] - lattice.owned().lower[0]);
+        std::vector<double> above(below);
+        const auto flux = [dt](const double third, const double speed, const double width) {
+          const bool has_one = third == third;
+          return has_one ? std::min(share * dt * speed, most * width) * third : 0.;
+        };
+        for_each_row(having_difference(lattice.owned()),
+                     [&](const GridIndex<dim> &begin, const int n) {
+                       set_speeds(begin, n, below);
+                       set_speeds(moved<dim>(begin, direction, 1), n, above);
+                       const double *d     = differences.data(begin);
+                       const double *width = at(widths, begin);
+                       double       *q     = result.data(begin);
+                       for (int i = 0; i < n; ++i)
+                         {
+                           const double *w = width + stride_of_weights * i;
+                           q[i] = flux(d[i] - d[i - next], below[i], (w[-1] + w[0]) / 2) -
+                                  flux(d[i + next] - d[i], above[i], (w[0] + w[1]) / 2);
+                         }
+                     });
       }
 
-      /// |u_f| of a row of places [m/s].
+      /// |u| in the direction, in the middles below the places of a row [m/s].
       void
       set_speeds(const GridIndex<dim> &begin, const int n, std::vector<double> &speeds) const
       {
-        const unsigned int axis  = lattice.normal_axis();
-        const auto        &along = flow[direction];
-        if (direction == axis)
-          {
-            std::transform(along.data(begin),
-                           along.data(begin) + n,
-                           speeds.begin(),
-                           [](const double speed) { return std::abs(speed); });
-            return;
-          }
+        const auto   &along = flow[direction];
         const double *here  = along.data(begin);
-        const double *below = along.data(moved<dim>(begin, axis, -1));
-        const auto    next  = along.stride(direction);
+        const double *other = along.data(moved<dim>(begin, lattice.normal_axis(), -1));
         for (int i = 0; i < n; ++i)
-          speeds[i] = std::abs(here[i] + here[i + next] + below[i] + below[i + next]) / 4;
+          speeds[i] = std::abs(here[i] + other[i]) / 2;
       }
 
       const Velocity<dim> &flow;

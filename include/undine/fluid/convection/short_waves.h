@@ -7,19 +7,19 @@
 
 namespace undine
 {
-  /// Take away from `velocity` what a flow damps in `dt` [s] of waves that central fluxes carry
-  /// upstream (F22). A wave of the length lambda on cells of the width dx goes with
-  /// u cos(2 pi dx / lambda): one that is shorter than four cells comes back from where it has
-  /// arisen, as in vortices that arrive at wider cells, and stays around bodies. In each direction
+  /// Take away from `velocity` what a flow damps in `dt` [s] of waves that are too short for
+  /// central fluxes (F22). These carry a wave of the length lambda on cells of the width dx with
+  /// u cos(2 pi dx / lambda), those shorter than four cells upstream: they come back from where
+  /// they have arisen, as where vortices arrive at wider cells, and stay around bodies. In each
+  /// direction
   ///
-  ///     V_g dv_g/dt = -sum_f dD_f/dv_g V_f K_f D_f,
-  ///     K_f = min(|u_f| / (16 dx), 1 / (32 dim dt)) min(1, max(0, -(D_f- + D_f+) / (2 D_f)))
+  ///     V_g dv_g/dt = -sum_m dT_m/dv_g V_m K_m T_m,
+  ///     K_m = min(|u_m| / (60 dx), 1 / (128 dim dt))
   ///
-  /// with the second differences D_f around the places f, between f- and f+. In a wave the last
-  /// factor is -cos(2 pi dx / lambda): there is none for four cells and more, and the dissipation
-  /// of QUICK (Leonard, Comput. Methods Appl. Mech. Eng. 19, 1979) for two. Linear velocities and
-  /// momentum stay, energy falls. Places whose face or next ones are cut have no D_f, and faces on
-  /// sides of the domain keep their velocity.
+  /// with the third differences T_m in the middles m between places. That is the dissipation of
+  /// upwind fluxes of fifth order (Wicker, Skamarock, Mon. Weather Rev. 130, 2002). Linear
+  /// velocities and momentum stay, energy falls. There is no T_m if one of the four places is cut,
+  /// and faces on sides of the domain keep their velocity.
   ///
   /// `flow` has a ghost layer and is that at the end of `dt`. Collective.
   template <int dim>
