@@ -173,25 +173,31 @@ TEST_CASE("A steady drag does not depend on the step", "[coupled]")
 TEST_CASE("A jet without friction into an open box keeps its energy bounded in flux form",
           "[flows]")
 {
-  // Vortices draw in fluid through the sides. The inflow brings 9.2 W.
-  CoupledRun<3> run(steps_of(1. / 30) +
-                    section("Domain", "set Upper corner = 2, 1, 1\nset Cells = 12, 6, 6") +
-                    section("Fluid",
-                            "set Density = 1.2\n" +
-                              section("Boundaries",
-                                      boundary("jet",
-                                               "left",
-                                               "inflow",
-                                               "set Region = .15^2 - (y - .58)^2 - (z - .5)^2\n"
-                                               "set Velocity = 6; 0; 0") +
-                                        boundary("open", "right, top, back, front", "outflow"))) +
-                    section("Effects", flux_form()));
-  double        largest = 0;
-  for (unsigned int n = 0; n < 120; ++n)
+  // Vortices draw in fluid through the sides. The inflow brings 9.2 W. The jet is a cell or two
+  // wide, of which the damping of short waves takes some.
+  for (const std::string &short_waves : {"kept", "damped"})
     {
-      run.step();
-      largest = std::max(largest, run.column("Fluid kinetic energy"));
+      INFO(short_waves);
+      CoupledRun<3> run(
+        steps_of(1. / 30) + section("Domain", "set Upper corner = 2, 1, 1\nset Cells = 12, 6, 6") +
+        section("Fluid",
+                "set Density = 1.2\n" +
+                  section("Boundaries",
+                          boundary("jet",
+                                   "left",
+                                   "inflow",
+                                   "set Region = .15^2 - (y - .58)^2 - (z - .5)^2\n"
+                                   "set Velocity = 6; 0; 0") +
+                            boundary("open", "right, top, back, front", "outflow"))) +
+        section("Effects",
+                section("convection", "set Form = flux\nset Short waves = " + short_waves)));
+      double largest = 0;
+      for (unsigned int n = 0; n < 120; ++n)
+        {
+          run.step();
+          largest = std::max(largest, run.column("Fluid kinetic energy"));
+        }
+      CHECK(run.column("Fluid kinetic energy") > (short_waves == "kept" ? 3 : 2));
+      CHECK(largest < 7);
     }
-  CHECK(run.column("Fluid kinetic energy") > 3);
-  CHECK(largest < 7);
 }
