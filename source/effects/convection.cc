@@ -62,6 +62,10 @@ namespace undine
         throw options.error("",
                             "convection acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
+      if (!form.is_flux() && options.given("Short waves"))
+        throw options.error("Short waves",
+                            "is for the flux form, but values are brought along paths",
+                            "Remove the key, or set 'Form = flux'.");
       if (form.is_flux() && is_among(around.effects, "vorticity confinement"))
         throw options.error("Form",
                             "'flux' smooths nothing that vorticity confinement could make good",
@@ -152,7 +156,12 @@ namespace undine
         return;
       const auto timed = step.timing.section(this->name);
       if (short_waves == "damped")
-        damp_short_waves(step.model, step.carrying->unfitted_flow(), step.dt, step.state.velocity);
+        {
+          damp_short_waves(
+            step.model, step.carrying->unfitted_flow(), step.dt, step.state.velocity);
+          step.timing.memory.hold_briefly(this->name,
+                                          2 * step.state.velocity[0].memory_consumption());
+        }
       if (step.viscosity == 0)
         momentum.solve(step, this->name);
     }
